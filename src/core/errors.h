@@ -1,0 +1,35 @@
+// The kinds of failure that are kept apart (docs/notation.md, "Failures"):
+//   wrong program    -> assert
+//   wrong input      -> InputError, one line, exit code 2
+//   wrong numbers    -> a value (status and message), never an exception; exit code 3
+//   the user's Ctrl-C -> Interrupted, exit code 130
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace knotlight {
+
+// Exit codes of the program.
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_failure = 1,
+  exit_bad_input = 2,
+  exit_untrusted = 3,
+  exit_interrupted = 130,
+};
+
+// Something the user gave is wrong. what() is one line: "file:line: key: what is wrong, expected
+// ...".
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// The user pressed Ctrl-C; thrown by Workers between chunks so that destructors clean up.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+}  // namespace knotlight

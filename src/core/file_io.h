@@ -1,0 +1,14 @@
+// Files are written whole or not at all: to a temporary name beside the target, then renamed.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace knotlight {
+
+// Calls write(temporary_path) and renames the result to `path`. If write throws, or the rename
+// fails, no trace is left and `path` is as it was. The temporary keeps the extension of `path`.
+void write_atomically(const std::string& path,
+                      const std::function<void(const std::string& temporary)>& write);
+
+}  // namespace knotlight

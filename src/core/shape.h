@@ -1,0 +1,36 @@
+// What an object can be: an exact sphere or a triangle mesh.
+#pragma once
+
+#include <variant>
+
+#include "core/mesh.h"
+#include "core/rng.h"
+
+namespace knotlight {
+
+struct Sphere {
+  Vec3 center = Vec3::Zero();
+  double radius = 1.0;
+};
+
+using Shape = std::variant<Sphere, TriangleMesh>;
+
+// A point on a surface in double precision, with the outward unit normal of the true shape.
+struct SurfacePoint {
+  Vec3 position = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();
+};
+
+Bounds bounds(const Shape& shape);
+double surface_area(const Shape& shape);
+double volume(const Shape& shape);
+
+// N points spread over the surface by strata of equal area, N x (position, normal): the knots of
+// [V09 ch. 7]. Sphere: about sqrt(N/2) x sqrt(2N) cells in (z, phi). Mesh: triangles in Morton
+// order of their centroids, one point per N-th of the total area. Without jitter the centre of each
+// stratum, with it a random point of it. Density in the mean: 1/area per area.
+std::vector<SurfacePoint> stratified_surface_points(const Shape& shape, std::size_t count,
+                                                    bool jitter, std::uint64_t seed,
+                                                    Stream purpose);
+
+}  // namespace knotlight
