@@ -11,4 +11,7 @@ namespace knotlight {
 void write_atomically(const std::string& path,
                       const std::function<void(const std::string& temporary)>& write);
 
+// The same for text.
+void write_text_file(const std::string& path, const std::string& text);
+
 }  // namespace knotlight

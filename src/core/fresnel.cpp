@@ -25,8 +25,9 @@ double integrate_above_critical(double ior, const std::function<double(double mu
 }  // namespace
 
 double fresnel_reflectance(double cos_i, double eta) {
+  if (eta == 1.0) return 0.0;
   const double sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
-  if (sin2_t >= 1.0) return eta == 1.0 ? 0.0 : 1.0;
+  if (sin2_t >= 1.0) return 1.0;
   const double cos_t = std::sqrt(1.0 - sin2_t);
   const double r_s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
   const double r_p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);

@@ -37,8 +37,8 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  // The nearest surface met at a distance in (skip, t_max), skip = about 1e-6 of the scene's size:
-  // a ray that starts on a surface does not meet it again.
+  // The nearest surface met at a distance in (skip_distance(), t_max): a ray that starts on a surface
+  // does not meet it again.
   std::optional<Hit> nearest(const Ray& ray) const;
   // The same against one object alone.
   std::optional<Hit> nearest(const Ray& ray, std::uint32_t object) const;
@@ -60,6 +60,7 @@ class RayCaster {
   };
   std::vector<Crossing> crossings(const Ray& ray, std::uint32_t object) const;
 
+  // 1e-7 of the radius of the sphere around all shapes.
   double skip_distance() const;
 
  private:

@@ -1,0 +1,29 @@
+// Light that reaches a point of the surroundings straight from the lights.
+#pragma once
+
+#include <optional>
+
+#include "core/rng.h"
+#include "scene/scene.h"
+#include "trace/ray_caster.h"
+
+namespace knotlight {
+
+// Fraction (0..1, per channel) of light that travels unscattered from a towards b. Diffuse and
+// refracting objects block it; index-matched translucent ones let exp(-sigma_t * length) through.
+Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& a,
+                       const Vec3& direction, double distance);
+
+// One Monte Carlo estimate of the irradiance (W/length^2) on the side of a surface that the unit
+// normal points to; one sample per light, exact for point and directional lights. Unbiased.
+Spectrum sample_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
+                           const Vec3& normal, Rng& rng);
+
+// The radiance of the nearest area light that the ray meets before t_max (zero from behind), or
+// nothing if it meets none.
+std::optional<Spectrum> area_light_seen(const Scene& scene, const Ray& ray);
+
+// Radiance from infinity along a ray that meets nothing.
+Spectrum environment_radiance(const Scene& scene, const Vec3& direction);
+
+}  // namespace knotlight

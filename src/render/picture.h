@@ -1,0 +1,31 @@
+// The ray-traced picture of a scene whose translucent objects have been solved.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/image_io.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "render/exitance.h"
+#include "render/surface_grid.h"
+#include "scene/scene.h"
+#include "trace/ray_caster.h"
+
+namespace knotlight {
+
+// What the picture needs of one solved translucent object.
+struct GlowingSurface {
+  SurfaceGrid grid;
+  std::vector<Eigen::VectorXd> U_d;      // per channel, one value per grid node, W/(length^2 sr)
+  std::vector<LeavingRadiance> leaving;  // per channel
+};
+
+// Linear radiance, W/(length^2 sr), per pixel: the mean over stratified samples (box filter).
+// surfaces: one per scene object, empty for diffuse ones. Same bits for any number of workers.
+Image render_picture(const Scene& scene, const RayCaster& caster,
+                     const std::vector<std::optional<GlowingSurface>>& surfaces, std::uint64_t seed,
+                     const Workers& workers, Stage& stage);
+
+}  // namespace knotlight
