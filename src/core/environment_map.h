@@ -23,8 +23,9 @@ class EnvironmentMap {
     Vec3 direction;  // pointing away from the scene
     double pdf;      // 1/sr
   };
-  // A direction with density proportional to the mean of the three channels of its pixel times its
-  // solid angle; uniform over the pixel's solid angle. u, v uniform in [0, 1).
+  // A direction whose pixel is chosen in proportion to its solid angle times the interpolated
+  // radiance averaged over it (mean of the channels), so that every direction that shines can be
+  // chosen; uniform over the pixel's solid angle. A black map: uniform. u, v uniform in [0, 1).
   Sample sample(double u, double v) const;
 
  private:

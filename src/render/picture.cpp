@@ -98,7 +98,16 @@ class Picture {
   std::vector<std::vector<Vec3>> smooth_normals_;  // 3 per triangle; empty: use the hit's normal
 };
 
+int tiles_across(int pixels) {
+  return (pixels + tile_size - 1) / tile_size;
+}
+
 }  // namespace
+
+std::size_t picture_tiles(const Camera& camera) {
+  return static_cast<std::size_t>(tiles_across(camera.width_px)) *
+         static_cast<std::size_t>(tiles_across(camera.height_px));
+}
 
 Image render_picture(const Scene& scene, const RayCaster& caster,
                      const std::vector<std::optional<GlowingSurface>>& surfaces, std::uint64_t seed,
@@ -107,17 +116,16 @@ Image render_picture(const Scene& scene, const RayCaster& caster,
   const int height = scene.camera.height_px;
   const Picture picture(scene, caster, surfaces);
   Image image{width, height, std::vector<Spectrum>(static_cast<std::size_t>(width) * height)};
-  const int columns = (width + tile_size - 1) / tile_size;
-  const int rows = (height + tile_size - 1) / tile_size;
-  const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  workers.for_chunks(tiles, 1, [&](std::size_t tile, std::size_t, std::size_t) {
-    const int x0 = static_cast<int>(tile) % columns * tile_size;
-    const int y0 = static_cast<int>(tile) / columns * tile_size;
-    for (int y = y0; y < std::min(height, y0 + tile_size); ++y)
-      for (int x = x0; x < std::min(width, x0 + tile_size); ++x)
-        image.at(x, y) = picture.pixel(x, y, seed);
-    stage.advance();
-  });
+  const int columns = tiles_across(width);
+  workers.for_chunks(picture_tiles(scene.camera), 1,
+                     [&](std::size_t tile, std::size_t, std::size_t) {
+                       const int x0 = static_cast<int>(tile) % columns * tile_size;
+                       const int y0 = static_cast<int>(tile) / columns * tile_size;
+                       for (int y = y0; y < std::min(height, y0 + tile_size); ++y)
+                         for (int x = x0; x < std::min(width, x0 + tile_size); ++x)
+                           image.at(x, y) = picture.pixel(x, y, seed);
+                       stage.advance();
+                     });
   return image;
 }
 

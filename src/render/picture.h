@@ -22,6 +22,9 @@ struct GlowingSurface {
   std::vector<LeavingRadiance> leaving;  // per channel
 };
 
+// How often render_picture advances its stage.
+std::size_t picture_tiles(const Camera& camera);
+
 // Linear radiance, W/(length^2 sr), per pixel: the mean over stratified samples (box filter).
 // surfaces: one per scene object, empty for diffuse ones. Same bits for any number of workers.
 Image render_picture(const Scene& scene, const RayCaster& caster,

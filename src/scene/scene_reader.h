@@ -1,4 +1,4 @@
-// YAML -> Scene. The one file pair that knows yaml-cpp is scene_reader.cpp / yaml_reader.cpp.
+// YAML -> Scene. The one file that knows yaml-cpp is yaml_reader.cpp.
 #pragma once
 
 #include <string>

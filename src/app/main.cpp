@@ -1,0 +1,164 @@
+// The command line. Commands live in src/pipeline; this file parses words and turns outcomes into
+// exit codes.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include "core/errors.h"
+#include "core/file_io.h"
+#include "core/image_io.h"
+#include "pipeline/info.h"
+#include "pipeline/probe_scene.h"
+#include "pipeline/render_scene.h"
+#include "pipeline/report_json.h"
+#include "pipeline/run_options.h"
+
+namespace knotlight {
+namespace {
+
+struct CommandLine {
+  std::string scene;
+  std::string output;
+  std::string points;
+  bool json_wanted = false;
+  RunOptions options;
+};
+
+void add_common_options(CLI::App& command, CommandLine& line) {
+  command.add_option("scene", line.scene, "scene file (YAML)")->required();
+  command.add_option("--set", line.options.overrides, "override a scene key: path.to.key=value")
+      ->allow_extra_args(false)
+      ->take_all();
+  command.add_option("--seed", line.options.seed, "seed of all random numbers")
+      ->capture_default_str();
+  command.add_option("--threads", line.options.threads, "threads; 0 = one per core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_flag("--quiet", line.options.quiet, "print nothing but errors");
+}
+
+// Without -o a picture goes to the working folder under the scene's name, as .exr to measure and as
+// .png to look at.
+std::vector<std::string> picture_files(const CommandLine& line) {
+  if (!line.output.empty()) return {line.output};
+  const std::string stem = std::filesystem::path(line.scene).stem().string();
+  return {stem + ".exr", stem + ".png"};
+}
+
+// Failed checks, one line each; tells the exit code.
+int judge(const Report& report) {
+  for (const std::string& failure : report.failures)
+    fmt::print(stderr, "not to be trusted: {}\n", failure);
+  return report.failures.empty() ? exit_ok : exit_untrusted;
+}
+
+void write_summary(const CommandLine& line, const std::string& command, const Report& report,
+                   const Scene& scene, const Run& run) {
+  if (!line.options.json.empty())
+    write_text_file(line.options.json, report_json(command, report, scene, run));
+}
+
+int render(const CommandLine& line, Run& run) {
+  const std::vector<std::string> files = picture_files(line);
+  for (const std::string& file : files) check_image_extension(file);
+  Scene scene;
+  const Report report = render_scene(line.scene, files, run, scene);
+  write_summary(line, "render", report, scene, run);
+  if (!line.options.quiet)
+    for (const std::string& file : files) fmt::print("{}\n", file);
+  return judge(report);
+}
+
+int probe(const CommandLine& line, Run& run) {
+  Scene scene;
+  const Report report = probe_scene(line.scene, line.points, line.output, run, scene);
+  write_summary(line, "probe", report, scene, run);
+  return judge(report);
+}
+
+int info(const CommandLine& line, Run& run) {
+  Scene scene;
+  const Report report = inspect_scene(line.scene, line.json_wanted, run, scene);
+  if (line.json_wanted && line.options.json.empty())
+    fmt::print("{}", report_json("info", report, scene, run));
+  else if (!line.options.quiet)
+    fmt::print("{}", describe(report, scene));
+  write_summary(line, "info", report, scene, run);
+  return exit_ok;
+}
+
+// Ctrl-C: workers stop between chunks and destructors tidy up; a second one ends at once.
+extern "C" void on_interrupt(int) {
+  if (interrupt_requested.exchange(true)) _exit(exit_interrupted);
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app(
+      "knotlight renders translucent objects: photon map, diffusion equation, boundary knots");
+  app.name("knotlight");
+  app.set_version_flag(
+      "--version", fmt::format("knotlight {} ({})", KNOTLIGHT_VERSION,
+                               *KNOTLIGHT_COMMIT != '\0' ? KNOTLIGHT_COMMIT : "no commit known"));
+  app.require_subcommand(1);
+  CommandLine line;
+
+  CLI::App& render_command = *app.add_subcommand("render", "render a picture of the scene");
+  add_common_options(render_command, line);
+  render_command.add_option("-o,--output", line.output,
+                            "picture, .exr (linear) or .png (tone-mapped); default: both");
+  CLI::App& probe_command = *app.add_subcommand("probe", "evaluate the solved field at points");
+  add_common_options(probe_command, line);
+  probe_command.add_option("--points", line.points, "CSV with columns x, y, z")->required();
+  probe_command.add_option("-o,--output", line.output, "CSV to write")->required();
+  CLI::App& info_command =
+      *app.add_subcommand("info", "say what the scene is and what would be solved");
+  add_common_options(info_command, line);
+  for (CLI::App* command : {&render_command, &probe_command})
+    command->add_option("--json", line.options.json, "write a summary to this file");
+  CLI::Option* info_json =
+      info_command
+          .add_option("--json", line.options.json,
+                      "trace photons of all orders too and write a summary to this file, or to "
+                      "standard output if none is named")
+          ->expected(0, 1);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& wish) {  // --help, --version
+    return app.exit(wish);
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{} (see knotlight --help)", error.what()));
+  }
+  line.json_wanted = info_json->count() > 0;
+
+  const bool bars = !line.options.quiet && isatty(STDERR_FILENO) != 0;
+  Run run(line.options, bars);
+  if (render_command.parsed()) return render(line, run);
+  if (probe_command.parsed()) return probe(line, run);
+  return info(line, run);
+}
+
+}  // namespace
+}  // namespace knotlight
+
+int main(int argc, char** argv) {
+  using namespace knotlight;
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  try {
+    return run_program(argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return exit_bad_input;
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "interrupted; no file was changed\n");
+    return exit_interrupted;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return exit_failure;
+  }
+}

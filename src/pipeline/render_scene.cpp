@@ -1,0 +1,112 @@
+#include "pipeline/render_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/image_io.h"
+#include "pipeline/scene_setup.h"
+#include "pipeline/solve_scene.h"
+#include "render/picture.h"
+
+namespace knotlight {
+namespace {
+
+constexpr std::size_t nodes_per_chunk = 512;
+
+Exitance chosen_exitance(const SolverSettings& settings) {
+  return settings.exitance.value_or(Exitance::p1);
+}
+
+const char* name_of(Exitance exitance) {
+  switch (exitance) {
+    case Exitance::p1:
+      return "p1";
+    case Exitance::lambert:
+      return "lambert";
+    case Exitance::mean_intensity:
+      return "mean_intensity";
+    case Exitance::gather:
+      return "gather";
+  }
+  return "";
+}
+
+// The field at the nodes of every object's surface grid, each node evaluated once.
+std::vector<std::optional<GlowingSurface>> evaluate_surfaces(const PreparedScene& prepared,
+                                                             const SolvedScene& solved, Run& run) {
+  const Scene& scene = prepared.scene;
+  std::vector<std::optional<GlowingSurface>> surfaces(scene.objects.size());
+  std::size_t total = 0;
+  for (const std::uint32_t index : prepared.translucent) {
+    surfaces[index].emplace(GlowingSurface{SurfaceGrid(scene.objects[index].shape), {}, {}});
+    total += static_cast<std::size_t>(surfaces[index]->grid.nodes().cols() * scene.channels);
+  }
+  Stage stage(run.stages, "surface", total);
+  for (std::size_t i = 0; i < prepared.translucent.size(); ++i) {
+    const std::uint32_t index = prepared.translucent[i];
+    GlowingSurface& surface = *surfaces[index];
+    const Points& nodes = surface.grid.nodes();
+    for (int c = 0; c < scene.channels; ++c) {
+      const BkmField& field = solved.objects[i][static_cast<std::size_t>(c)].field;
+      Eigen::VectorXd values(nodes.cols());
+      run.workers.for_chunks(static_cast<std::size_t>(nodes.cols()), nodes_per_chunk,
+                             [&](std::size_t, std::size_t begin, std::size_t end) {
+                               const auto first = static_cast<Eigen::Index>(begin);
+                               const auto count = static_cast<Eigen::Index>(end - begin);
+                               values.segment(first, count) =
+                                   field.values(nodes.middleCols(first, count));
+                               stage.advance(end - begin);
+                             });
+      surface.U_d.push_back(std::move(values));
+      surface.leaving.emplace_back(scene.objects[index].translucent()->medium(c),
+                                   scene.solver.boundary, chosen_exitance(scene.solver));
+    }
+  }
+  return surfaces;
+}
+
+// What a picture file says about itself.
+Metadata picture_metadata(const Scene& scene, const std::string& path, const Report& report,
+                          const Run& run) {
+  Metadata metadata = {
+      {"Software", "knotlight " KNOTLIGHT_VERSION},
+      {"knotlight:scene", path},
+      {"knotlight:units", fmt::format("radiance in W/({0}^2 sr)", scene.units)},
+      {"knotlight:exitance", name_of(chosen_exitance(scene.solver))},
+      {"knotlight:boundary", scene.solver.boundary == Boundary::milne ? "milne" : "marshak"},
+      {"knotlight:photons", fmt::format("{}", scene.solver.photons)},
+      {"knotlight:tolerance", fmt::format("{}", scene.solver.tolerance)},
+      {"knotlight:seed", fmt::format("{}", run.options.seed)},
+      {"knotlight:trusted", report.failures.empty() ? "yes" : "no"}};
+  for (const ObjectReport& object : report.objects)
+    metadata.emplace_back("knotlight:method:" + object.name, object.method);
+  for (const std::string& item : run.options.overrides)
+    metadata.emplace_back("knotlight:set", item);
+  if (!report.failures.empty())
+    metadata.emplace_back("knotlight:failures",
+                          fmt::format("{}", fmt::join(report.failures, "; ")));
+  return metadata;
+}
+
+}  // namespace
+
+Report render_scene(const std::string& path, const std::vector<std::string>& outputs, Run& run,
+                    Scene& scene_out) {
+  const PreparedScene prepared = prepare_scene(path, run);
+  const SolvedScene solved = solve_scene(prepared, run);
+  const auto surfaces = evaluate_surfaces(prepared, solved, run);
+  Image image;
+  {
+    Stage stage(run.stages, "picture", picture_tiles(prepared.scene.camera));
+    image = render_picture(prepared.scene, *prepared.caster, surfaces, run.options.seed,
+                           run.workers, stage);
+  }
+  const Stage stage(run.stages, "write", 0);
+  for (const std::string& output : outputs)
+    write_image(output, image, picture_metadata(prepared.scene, path, solved.report, run));
+  scene_out = prepared.scene;
+  return solved.report;
+}
+
+}  // namespace knotlight

@@ -1,0 +1,18 @@
+// The `render` command: scene file -> picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/report.h"
+#include "pipeline/run_options.h"
+#include "scene/scene.h"
+
+namespace knotlight {
+
+// Solves every translucent object and writes the picture to each of `outputs` (.exr or .png). The
+// picture is written also if a check fails; its metadata then says so.
+Report render_scene(const std::string& path, const std::vector<std::string>& outputs, Run& run,
+                    Scene& scene_out);
+
+}  // namespace knotlight

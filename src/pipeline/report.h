@@ -1,0 +1,54 @@
+// What a run has found out about its own numbers. Everything here goes into the JSON summary; what
+// fails a check makes the program end with exit code 3.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "photon/energy_audit.h"
+#include "pipeline/validity.h"
+
+namespace knotlight {
+
+// One object in one colour channel. "Relative" is to the largest |U_d| at the check points.
+struct ChannelReport {
+  double lambda = 0.0;  // 1/length
+  double k = 0.0;       // length
+
+  std::size_t photons = 0;    // recorded in the object
+  double photon_power = 0.0;  // of the light that interacts first there, W
+  std::size_t boundary_knots = 0;
+  std::size_t interior_knots = 0;
+  std::size_t interior_knots_dropped = 0;  // would have lain outside
+  double gaussian_width = 0.0;             // length
+  int particular_rank = 0;
+  int homogeneous_rank = 0;
+  double particular_condition = 0.0;
+  double homogeneous_condition = 0.0;
+
+  double robin_residual = 0.0;   // max at points that are not knots, relative
+  double source_residual = 0.0;  // max |f - f~| over max |f|, at points that are not knots
+  double numerical_error = 0.0;  // bound on the field's error from both residuals, relative
+  double noise = 0.0;  // rms over the check points, from two halves of the photons, relative
+  double error_estimate = 0.0;    // numerical_error + noise
+  double energy_imbalance = 0.0;  // (leaving + absorbed - scattered in - emitted) / (in + emitted)
+  double energy_imbalance_standard_error = 0.0;  // of the volume integral
+  double power_in = 0.0;                         // scattered in + emitted, W
+  double power_leaving = 0.0;                    // W
+  double power_absorbed = 0.0;                   // of the diffuse light, W
+};
+
+struct ObjectReport {
+  std::string name;
+  std::string method;                   // what was solved, and why, in words
+  std::vector<Validity> validity;       // per channel
+  std::vector<ChannelReport> channels;  // per channel; empty before a solve
+  std::vector<EnergyAudit> audit;       // per channel; empty if not asked for
+};
+
+struct Report {
+  std::vector<ObjectReport> objects;  // the translucent ones, in scene order
+  std::vector<std::string> failures;  // checks that failed, one sentence each; empty = trusted
+};
+
+}  // namespace knotlight

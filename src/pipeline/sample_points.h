@@ -1,0 +1,22 @@
+// Points at which a solution is checked: none of them is a knot.
+#pragma once
+
+#include <vector>
+
+#include "core/shape.h"
+#include "trace/ray_caster.h"
+
+namespace knotlight {
+
+// Positions (3 x N) and outward normals (3 x N) of surface points.
+struct SurfaceSamples {
+  Points positions;
+  Points normals;
+};
+SurfaceSamples columns(const std::vector<SurfacePoint>& points);
+
+// `count` points uniform in the object's volume (rejection from its bounding box).
+Points volume_points(const Shape& shape, const RayCaster& caster, std::uint32_t object,
+                     std::size_t count, std::uint64_t seed);
+
+}  // namespace knotlight

@@ -1,0 +1,21 @@
+// All translucent objects of a scene, solved in every channel.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/report.h"
+#include "pipeline/run_options.h"
+#include "pipeline/scene_setup.h"
+#include "pipeline/solve_object.h"
+
+namespace knotlight {
+
+struct SolvedScene {
+  // One entry per translucent object in scene order, in it one per channel.
+  std::vector<std::vector<SolvedChannel>> objects;
+  Report report;
+};
+
+SolvedScene solve_scene(const PreparedScene& prepared, Run& run);
+
+}  // namespace knotlight

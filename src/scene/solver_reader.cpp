@@ -1,0 +1,79 @@
+#include <array>
+
+#include "scene/scene_parts.h"
+
+namespace knotlight {
+namespace {
+
+// The words of the format. Those marked false are part of it, but not available in this version.
+constexpr std::array<Choice<SourceModel>, 4> source_models{{
+    {"photon_map", SourceModel::photon_map},
+    {"irradiance_sampling", SourceModel::irradiance_sampling, false},
+    {"irradiance_thesis", SourceModel::irradiance_thesis, false},
+    {"boundary_flux", SourceModel::boundary_flux, false},
+}};
+constexpr std::array<Choice<Method>, 6> methods{{
+    {"auto", Method::automatic},
+    {"bkm_thesis", Method::bkm_thesis},
+    {"bkm", Method::bkm, false},
+    {"mfs", Method::mfs, false},
+    {"lbkm", Method::lbkm, false},
+    {"grid", Method::grid, false},
+}};
+constexpr std::array<Choice<Boundary>, 2> boundaries{{
+    {"milne", Boundary::milne},
+    {"marshak", Boundary::marshak},
+}};
+constexpr std::array<Choice<Exitance>, 4> exitances{{
+    {"gather", Exitance::gather, false},
+    {"p1", Exitance::p1},
+    {"lambert", Exitance::lambert},
+    {"mean_intensity", Exitance::mean_intensity},
+}};
+constexpr std::array<Choice<Divergence>, 2> divergences{{
+    {"identity", Divergence::identity},
+    {"differentiated", Divergence::differentiated},
+}};
+
+constexpr Range between_0_and_1{0.0, 1.0, true, true};
+// A Gaussian a millionth or a million knot spacings wide is a slip, not a choice.
+constexpr Range knot_spacings{1e-6, 1e6};
+constexpr std::size_t max_photons = 10'000'000'000;  // hours of tracing and 1e12 bytes
+constexpr std::size_t max_knots = 1'000'000;         // beyond any solver's reach
+constexpr std::size_t min_knots = 4;                 // four points span a volume
+constexpr std::size_t max_estimate_photons = 1'000'000;
+
+}  // namespace
+
+SolverSettings read_solver(const YamlNode& node) {
+  check_keys(node, {"tolerance", "source", "method", "boundary", "exitance", "photons", "knots",
+                    "jitter", "shape_parameter", "svd_cut", "estimate_photons", "divergence"});
+  SolverSettings solver;
+  if (const auto* key = node.find("tolerance")) {
+    solver.tolerance = read_number(*key, between_0_and_1);
+  }
+  if (const auto* key = node.find("source")) solver.source = read_choice(*key, source_models);
+  if (const auto* key = node.find("method")) solver.method = read_choice(*key, methods);
+  if (const auto* key = node.find("boundary")) solver.boundary = read_choice(*key, boundaries);
+  if (const auto* key = node.find("exitance")) solver.exitance = read_choice(*key, exitances);
+  if (const auto* key = node.find("photons")) solver.photons = read_count(*key, 1, max_photons);
+  if (const auto* key = node.find("knots")) {
+    solver.knots = read_count(*key, min_knots, max_knots);
+  }
+  if (const auto* key = node.find("jitter")) solver.jitter = read_bool(*key);
+  if (const auto* key = node.find("shape_parameter")) {
+    solver.shape_parameter = read_number(*key, knot_spacings);
+  }
+  if (const auto* key = node.find("svd_cut")) {
+    solver.svd_cut = read_number(*key, between_0_and_1);
+  }
+  if (const auto* key = node.find("estimate_photons")) {
+    solver.estimate_photons = read_count(*key, 1, max_estimate_photons);
+  }
+  if (const auto* key = node.find("divergence")) {
+    solver.divergence = read_choice(*key, divergences);
+  }
+  return solver;
+}
+
+}  // namespace knotlight
