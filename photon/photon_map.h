@@ -2,7 +2,6 @@
 // photon_map.cpp) and the density estimates that turn photons into U_ri and Q_ri.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -14,20 +13,30 @@ namespace knotlight {
 
 // Reduced incident light at a point.
 struct ReducedIncident {
-  double U_ri = 0.0;                     // mean intensity, W/(length^2 sr)
-  Vec3 Q_ri = Vec3::Zero();              // flux moment g sigma_s F_ri, W/length^3
-  double relative_standard_error = 0.0;  // of U_ri, from the photon count
+  double U_ri = 0.0;         // mean intensity, W/(length^2 sr)
+  Vec3 Q_ri = Vec3::Zero();  // flux moment g sigma_s F_ri, W/length^3
+  // Of U_ri, from the number and powers of the photons in the ball; infinite if the map has photons
+  // but none in the ball, 0 for an empty map (no light: U_ri = 0 is exact).
+  double relative_standard_error = 0.0;
 };
 
 struct EstimateOptions {
-  std::size_t nearest = 200;  // photons in the ball, unless max_radius is smaller
-  double max_radius = 0.25;   // in mean free paths 1/sigma_t
+  std::size_t nearest =
+      200;  // photons that set the ball's radius, unless max_radius is smaller; > 1
+  double max_radius = 0.25;  // in mean free paths 1/sigma_t
+  // Light on its first flight falls off along its direction by a known factor, so each
+  // first-interaction photon is carried along its ray to the plane through x: its weight is
+  // exp(sigma_t w.(p - x)). Without it a half-ball on a lit surface is 3/8 sigma_t r too dark. Has
+  // no effect on a map of all orders.
+  bool undo_attenuation = true;
 };
 
 class VolumePhotonMap {
  public:
-  // Keeps the photons of order `first_order_only` ? 1 : any. The medium gives sigma_t, g, sigma_s.
-  VolumePhotonMap(std::vector<VolumePhoton> photons, const Medium& medium);
+  // Keeps the photons of order 1, or all of them (the estimates are then of U = U_ri + U_d). The
+  // medium gives sigma_t, g, sigma_s.
+  VolumePhotonMap(std::vector<VolumePhoton> photons, const Medium& medium,
+                  bool first_order_only = true);
   ~VolumePhotonMap();
   VolumePhotonMap(VolumePhotonMap&&) noexcept;
   VolumePhotonMap& operator=(VolumePhotonMap&&) noexcept;
@@ -36,9 +45,11 @@ class VolumePhotonMap {
   const std::vector<VolumePhoton>& photons() const;
   double total_power() const;  // W
 
-  // U_ri and Q_ri at x from the nearest first-interaction photons:
+  // U_ri and Q_ri at x, inside the object or on its surface, from the nearest photons:
   //   U_ri = (1/4pi) (1/sigma_t) sum dPhi / V,  Q_ri = g (sigma_s/sigma_t) sum dPhi w / V,
-  // V = the part of the ball that lies inside the object [physics: V09 6.19-6.20, corrected].
+  // V = the part of the ball that lies inside the object ([V09 6.19-6.20], corrected:
+  // docs/theory.md). The ball reaches to the k-th nearest photon and counts the k - 1 before it,
+  // which makes the density unbiased; or to max_radius, whichever is nearer.
   ReducedIncident estimate(const Vec3& x, const EstimateOptions& options, const RayCaster& caster,
                            std::uint32_t object) const;
 
@@ -46,10 +57,5 @@ class VolumePhotonMap {
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
-
-// Volume of the part of the ball around x (inside or on the surface) that lies inside the object,
-// summed over a fixed spherical design of rays; exact where the surface is further than r. Unit
-// length^3.
-double ball_volume_inside(const Vec3& x, double r, const RayCaster& caster, std::uint32_t object);
 
 }  // namespace knotlight

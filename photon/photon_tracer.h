@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "photon/energy_audit.h"
 #include "photon/volume_photon.h"
 #include "scene/scene.h"
 #include "trace/ray_caster.h"
@@ -24,12 +25,14 @@ struct TracerOptions {
 struct TraceResult {
   std::vector<std::vector<VolumePhoton>> photons;  // per scene object; empty if not translucent
   std::vector<EnergyAudit> audit;                  // per scene object
-  double emitted = 0.0;                            // power sent towards the objects, W
+  double emitted = 0.0;  // W, power sent towards the sphere around the translucent objects
 };
 
-// Same bits for any number of workers. Diffuse objects absorb what hits them. Index-matched and
-// refracting translucent objects are entered by Fresnel roulette; light that leaves one and enters
-// another starts there at order 1 again.
+// Same bits for any number of workers; photon i draws the same numbers in every channel, so that
+// the noise of the channels is alike and colours do not speckle. Diffuse objects absorb what hits
+// them. Light that leaves one translucent object and enters another starts there at order 1 again.
+// With Orders::first the audit's `absorbed` is 0: all that interacts is `unfollowed`. The bar of
+// `stage` counts photons.
 TraceResult trace_photons(const Scene& scene, const RayCaster& caster, int channel,
                           const TracerOptions& options, const Workers& workers, Stage& stage);
 
