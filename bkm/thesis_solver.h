@@ -8,19 +8,18 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
-#include <optional>
 #include <string>
 
 #include "bkm/dense_solver.h"
+#include "bkm/field.h"
 #include "core/vec3.h"
 
 namespace knotlight {
 
 struct BkmThesisProblem {
-  double lambda = 1.0;      // 1/length
-  double k = 1.0;           // length
-  Points boundary_points;   // 3 x N
+  double lambda = 1.0;      // >= 0, 1/length
+  double k = 1.0;           // >= 0, length; 0 is Dirichlet's condition
+  Points boundary_points;   // 3 x N, N >= 1
   Points boundary_normals;  // 3 x N, outward unit
   Points interior_points;   // 3 x M
 };
@@ -30,47 +29,29 @@ struct BkmThesisOptions {
   double relative_cut = -1.0;  // < 0: MATLAB's pinv rule
 };
 
-// A solved field; a sum of N + (N + M) kernels.
-class BkmField {
- public:
-  double value(const Vec3& x) const;
-  Vec3 gradient(const Vec3& x) const;
-  // Approximated source f~ = sum alpha phi at x: what dual reciprocity made of f.
-  double source(const Vec3& x) const;
-  // Values at many points, P.
-  Eigen::VectorXd values(const Points& x) const;
-
- private:
-  friend class BkmThesisSolver;
-  Points gaussian_centers_;  // 3 x (N + M)
-  Eigen::VectorXd alpha_;
-  Points knots_;  // 3 x N
-  Eigen::VectorXd beta_;
-  double lambda_ = 1.0, c_ = 1.0, R_ = 1.0;
-};
-
-// Factors both systems once; solves for any number of sources and boundary data.
+// Factors both systems once; solves for any number of sources and boundary data. Objects may be
+// made and used in several threads at once.
 class BkmThesisSolver {
  public:
   BkmThesisSolver(const BkmThesisProblem& problem, const BkmThesisOptions& options);
 
-  bool ok() const;
-  std::string message() const;
+  bool ok() const { return particular_.ok() && homogeneous_.ok(); }
+  std::string message() const;  // which system failed and why; empty if ok
   // f: N + M source values (boundary knots first, then interior points); g: N boundary values.
+  // If not ok(), or with data that are not finite, the field is NaN everywhere.
   BkmField solve(const Eigen::VectorXd& f, const Eigen::VectorXd& g) const;
 
-  int particular_rank() const;
-  int homogeneous_rank() const;
-  double particular_condition() const;
-  double homogeneous_condition() const;
+  int particular_rank() const { return particular_.rank(); }
+  int homogeneous_rank() const { return homogeneous_.rank(); }
+  double particular_condition() const { return particular_.condition(); }
+  double homogeneous_condition() const { return homogeneous_.condition(); }
 
  private:
-  BkmThesisProblem problem_;
-  BkmThesisOptions options_;
-  double R_ = 1.0;
-  Points centers_;
-  std::unique_ptr<PseudoInverse> particular_;
-  std::unique_ptr<PseudoInverse> homogeneous_;
+  BkmBasis basis_;
+  Points knots_, normals_;  // 3 x N
+  double k_;
+  PseudoInverse particular_;   // (N + M) x (N + M)
+  PseudoInverse homogeneous_;  // N x N
 };
 
 }  // namespace knotlight
