@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <string>
@@ -16,6 +17,7 @@
 #include "pipeline/render_scene.h"
 #include "pipeline/report_json.h"
 #include "pipeline/run_options.h"
+#include "scene/nearest_name.h"
 
 namespace knotlight {
 namespace {
@@ -126,6 +128,15 @@ int run_program(int argc, char** argv) {
                       "standard output if none is named")
           ->expected(0, 1);
 
+  const std::vector<std::string> names = {"render", "probe", "info"};
+  if (argc < 2)
+    throw InputError(
+        fmt::format("no command given, expected {} (see knotlight --help)", one_of(names)));
+  const std::string word = argv[1];
+  if (!word.empty() && word.front() != '-' &&
+      std::find(names.begin(), names.end(), word) == names.end())
+    throw InputError(fmt::format("{}: no such command, expected {}{}", word, one_of(names),
+                                 did_you_mean(word, names)));
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wish) {  // --help, --version

@@ -43,6 +43,8 @@ void write_pixels(const std::string& temporary, const std::string& path, const I
                   const Metadata& metadata, OIIO::TypeDesc type, const std::vector<T>& data) {
   OIIO::ImageSpec spec(image.width, image.height, 3, type);
   for (const auto& [key, value] : metadata) spec.attribute(key, value);
+  // OpenImageIO would put the clock in; the same scene and seed must give the same file.
+  spec.attribute("DateTime", "2000:01:01 00:00:00");
   if (type == OIIO::TypeDesc::FLOAT) {
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
@@ -113,7 +115,8 @@ Image tone_map(const Image& linear) {
 void write_image(const std::string& path, const Image& image, const Metadata& metadata) {
   check_image_extension(path);
   for (const Spectrum& c : image.pixels)
-    if (!c.isFinite().all()) throw std::runtime_error(path + ": the picture has pixels that are not finite");
+    if (!c.isFinite().all())
+      throw std::runtime_error(path + ": the picture has pixels that are not finite");
   const bool png = std::filesystem::path(path).extension() == ".png";
   write_atomically(path, [&](const std::string& temporary) {
     if (png) {

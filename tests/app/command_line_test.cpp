@@ -73,13 +73,13 @@ TEST_F(CommandLine, OneAndTwoThreadsGiveTheSameFile) {
   run("render scene.yaml -o two.exr --threads 2");
   const std::string one = read_file(scratch_.path("one.exr"));
   EXPECT_GT(one.size(), 1000U);
-  EXPECT_EQ(one, read_file(scratch_.path("two.exr")));
+  EXPECT_TRUE(one == read_file(scratch_.path("two.exr")));  // not EXPECT_EQ: no bytes in the log
 }
 
 TEST_F(CommandLine, AnotherSeedGivesAnotherFile) {
   run("render scene.yaml -o one.exr --seed 1");
   run("render scene.yaml -o two.exr --seed 2");
-  EXPECT_NE(read_file(scratch_.path("one.exr")), read_file(scratch_.path("two.exr")));
+  EXPECT_TRUE(read_file(scratch_.path("one.exr")) != read_file(scratch_.path("two.exr")));
 }
 
 TEST_F(CommandLine, UntrustedNumbersEndWithThreeAndMarkThePicture) {
@@ -159,8 +159,8 @@ TEST_F(CommandLine, NoBarsInAPipe) {
 }
 
 TEST_F(CommandLine, WrongWords) {
-  expect_bad_input(run("rendr scene.yaml"), "rendr");
-  expect_bad_input(run(""), "subcommand");
+  expect_bad_input(run("rendr scene.yaml"), "did you mean 'render'?");
+  expect_bad_input(run(""), "render, probe or info");
   expect_bad_input(run("render"), "scene");
   expect_bad_input(run("render scene.yaml --threads -3"), "--threads");
   expect_bad_input(run("render scene.yaml --seed x"), "--seed");
