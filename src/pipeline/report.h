@@ -10,7 +10,8 @@
 
 namespace knotlight {
 
-// One object in one colour channel. "Relative" is to the largest |U_d| at the check points.
+// One object in one colour channel. "Relative" is to the largest |U_d| found at the
+// check points.
 struct ChannelReport {
   double lambda = 0.0;  // 1/length
   double k = 0.0;       // length
@@ -28,7 +29,9 @@ struct ChannelReport {
 
   double robin_residual = 0.0;   // max at points that are not knots, relative
   double source_residual = 0.0;  // max |f - f~| over max |f|, at points that are not knots
-  double numerical_error = 0.0;  // bound on the field's error from both residuals, relative
+  // Bound on the field's error from both residuals, over the least that the largest true |U_d| can
+  // then be; infinite if the bound leaves nothing.
+  double numerical_error = 0.0;
   double noise = 0.0;  // rms over the check points, from two halves of the photons, relative
   double error_estimate = 0.0;    // numerical_error + noise
   double energy_imbalance = 0.0;  // (leaving + absorbed - scattered in - emitted) / (in + emitted)

@@ -57,8 +57,7 @@ double SlabP1::transmitted() const {
 double SlabP1::absorbed() const {
   const double sigma_t = medium_.sigma_t();
   const double beam = (1.0 - std::exp(-sigma_t * thickness_)) / sigma_t;
-  const double diffuse =
-      c_.lambda > 0.0 ? (1.0 - std::exp(-c_.lambda * thickness_)) / c_.lambda : thickness_;
+  const double diffuse = (1.0 - std::exp(-c_.lambda * thickness_)) / c_.lambda;
   return medium_.sigma_a * (beam + 4.0 * pi * (particular_ * beam + (left_ + right_) * diffuse));
 }
 
