@@ -59,12 +59,12 @@ int judge(const Report& report) {
 }
 
 void write_summary(const CommandLine& line, const std::string& command, const Report& report,
-                   const Scene& scene, const Run& run) {
+                   const Scene& scene, const RunContext& run) {
   if (!line.options.json.empty())
     write_text_file(line.options.json, report_json(command, report, scene, run));
 }
 
-int render(const CommandLine& line, Run& run) {
+int render(const CommandLine& line, RunContext& run) {
   const std::vector<std::string> files = picture_files(line);
   for (const std::string& file : files) check_image_extension(file);
   Scene scene;
@@ -75,14 +75,14 @@ int render(const CommandLine& line, Run& run) {
   return judge(report);
 }
 
-int probe(const CommandLine& line, Run& run) {
+int probe(const CommandLine& line, RunContext& run) {
   Scene scene;
   const Report report = probe_scene(line.scene, line.points, line.output, run, scene);
   write_summary(line, "probe", report, scene, run);
   return judge(report);
 }
 
-int info(const CommandLine& line, Run& run) {
+int info(const CommandLine& line, RunContext& run) {
   Scene scene;
   const Report report = inspect_scene(line.scene, line.json_wanted, run, scene);
   if (line.json_wanted && line.options.json.empty())
@@ -147,7 +147,7 @@ int run_program(int argc, char** argv) {
   line.json_wanted = info_json->count() > 0;
 
   const bool bars = !line.options.quiet && isatty(STDERR_FILENO) != 0;
-  Run run(line.options, bars);
+  RunContext run(line.options, bars);
   if (render_command.parsed()) return render(line, run);
   if (probe_command.parsed()) return probe(line, run);
   return info(line, run);

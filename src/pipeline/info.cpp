@@ -26,7 +26,7 @@ std::string planned_method(const Scene& scene) {
       why);
 }
 
-Report inspect_scene(const std::string& path, bool audit, Run& run, Scene& scene_out) {
+Report inspect_scene(const std::string& path, bool audit, RunContext& run, Scene& scene_out) {
   const PreparedScene prepared = prepare_scene(path, run);
   const Scene& scene = prepared.scene;
   Report report;

@@ -11,7 +11,7 @@ namespace knotlight {
 
 // Validity of every translucent object and, if `audit`, where the power that arrives at it goes, by
 // photons of all orders.
-Report inspect_scene(const std::string& path, bool audit, Run& run, Scene& scene_out);
+Report inspect_scene(const std::string& path, bool audit, RunContext& run, Scene& scene_out);
 
 // The report as text for a person.
 std::string describe(const Report& report, const Scene& scene);

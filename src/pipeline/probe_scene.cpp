@@ -92,7 +92,7 @@ std::optional<Place> locate(const Vec3& p, const PreparedScene& prepared) {
 }  // namespace
 
 Report probe_scene(const std::string& path, const std::string& points_csv,
-                   const std::string& output_csv, Run& run, Scene& scene_out) {
+                   const std::string& output_csv, RunContext& run, Scene& scene_out) {
   const std::vector<Vec3> points = read_points(points_csv);
   const PreparedScene prepared = prepare_scene(path, run);
   const SolvedScene solved = solve_scene(prepared, run);

@@ -14,6 +14,6 @@ namespace knotlight {
 // status to `output_csv`. Points within 1e-3 of an object's size of its surface count as on it; a
 // point in no translucent object gets status "outside" and nan.
 Report probe_scene(const std::string& path, const std::string& points_csv,
-                   const std::string& output_csv, Run& run, Scene& scene_out);
+                   const std::string& output_csv, RunContext& run, Scene& scene_out);
 
 }  // namespace knotlight

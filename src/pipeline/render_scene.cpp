@@ -34,7 +34,8 @@ const char* name_of(Exitance exitance) {
 
 // The field at the nodes of every object's surface grid, each node evaluated once.
 std::vector<std::optional<GlowingSurface>> evaluate_surfaces(const PreparedScene& prepared,
-                                                             const SolvedScene& solved, Run& run) {
+                                                             const SolvedScene& solved,
+                                                             RunContext& run) {
   const Scene& scene = prepared.scene;
   std::vector<std::optional<GlowingSurface>> surfaces(scene.objects.size());
   std::size_t total = 0;
@@ -68,7 +69,7 @@ std::vector<std::optional<GlowingSurface>> evaluate_surfaces(const PreparedScene
 
 // What a picture file says about itself.
 Metadata picture_metadata(const Scene& scene, const std::string& path, const Report& report,
-                          const Run& run) {
+                          const RunContext& run) {
   Metadata metadata = {
       {"Software", "knotlight " KNOTLIGHT_VERSION},
       {"knotlight:scene", path},
@@ -91,8 +92,8 @@ Metadata picture_metadata(const Scene& scene, const std::string& path, const Rep
 
 }  // namespace
 
-Report render_scene(const std::string& path, const std::vector<std::string>& outputs, Run& run,
-                    Scene& scene_out) {
+Report render_scene(const std::string& path, const std::vector<std::string>& outputs,
+                    RunContext& run, Scene& scene_out) {
   const PreparedScene prepared = prepare_scene(path, run);
   const SolvedScene solved = solve_scene(prepared, run);
   const auto surfaces = evaluate_surfaces(prepared, solved, run);

@@ -12,7 +12,7 @@ namespace knotlight {
 
 // Solves every translucent object and writes the picture to each of `outputs` (.exr or .png). The
 // picture is written also if a check fails; its metadata then says so.
-Report render_scene(const std::string& path, const std::vector<std::string>& outputs, Run& run,
-                    Scene& scene_out);
+Report render_scene(const std::string& path, const std::vector<std::string>& outputs,
+                    RunContext& run, Scene& scene_out);
 
 }  // namespace knotlight

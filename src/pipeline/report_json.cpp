@@ -84,7 +84,7 @@ void add_solution(Json& json, const std::vector<ChannelReport>& channels) {
 }  // namespace
 
 std::string report_json(const std::string& command, const Report& report, const Scene& scene,
-                        const Run& run) {
+                        const RunContext& run) {
   Json json;
   json["program"] = "knotlight " KNOTLIGHT_VERSION;
   json["command"] = command;

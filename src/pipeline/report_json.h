@@ -12,6 +12,6 @@ namespace knotlight {
 // Keys and units: docs/json.md. Quantities per channel are a number for a scene of one channel and
 // a list for three. Numbers that are not finite are written as null.
 std::string report_json(const std::string& command, const Report& report, const Scene& scene,
-                        const Run& run);
+                        const RunContext& run);
 
 }  // namespace knotlight

@@ -19,12 +19,12 @@ struct RunOptions {
 };
 
 // What a running command carries along.
-struct Run {
+struct RunContext {
   RunOptions options;
   Workers workers;
   Stages stages;
 
-  Run(const RunOptions& o, bool bars) : options(o), workers(o.threads), stages(bars) {}
+  RunContext(const RunOptions& o, bool bars) : options(o), workers(o.threads), stages(bars) {}
 };
 
 }  // namespace knotlight

@@ -8,7 +8,7 @@
 
 namespace knotlight {
 
-PreparedScene prepare_scene(const std::string& path, Run& run) {
+PreparedScene prepare_scene(const std::string& path, RunContext& run) {
   PreparedScene prepared;
   {
     const Stage stage(run.stages, "scene", 0);

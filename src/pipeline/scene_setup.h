@@ -19,6 +19,6 @@ struct PreparedScene {
 
 // Reads, checks, builds the ray caster, refuses overlapping solids and an eye inside one. Prints
 // the scene's warnings to stderr unless quiet.
-PreparedScene prepare_scene(const std::string& path, Run& run);
+PreparedScene prepare_scene(const std::string& path, RunContext& run);
 
 }  // namespace knotlight

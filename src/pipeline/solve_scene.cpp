@@ -9,7 +9,7 @@
 
 namespace knotlight {
 
-SolvedScene solve_scene(const PreparedScene& prepared, Run& run) {
+SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
   const Scene& scene = prepared.scene;
   const auto channels = static_cast<std::size_t>(scene.channels);
 

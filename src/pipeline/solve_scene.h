@@ -16,6 +16,6 @@ struct SolvedScene {
   Report report;
 };
 
-SolvedScene solve_scene(const PreparedScene& prepared, Run& run);
+SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run);
 
 }  // namespace knotlight

@@ -57,7 +57,7 @@ SolvedChannel solve(const std::string& scene, const std::vector<std::string>& ov
   RunOptions options;
   options.overrides = overrides;
   options.quiet = true;
-  Run run(options, false);
+  RunContext run(options, false);
   SolvedScene solved =
       solve_scene(prepare_scene(KNOTLIGHT_ROOT "/scenes/validation/" + scene, run), run);
   return std::move(solved.objects[0][0]);
