@@ -1,17 +1,16 @@
 #include "core/image_io.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 
 #include "core/errors.h"
 #include "core/file_io.h"
+#include "core/image_module/image_codec.h"
 
 namespace knotlight {
 namespace {
@@ -38,25 +37,25 @@ double srgb_encode(double x) {
   return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
 }
 
+// Loads the module once; it lies beside the program, where the program's run path finds it.
+const ImageCodec& codec() {
+  static const ImageCodec& loaded = [&]() -> const ImageCodec& {
+    void* library = dlopen(image_codec_library, RTLD_NOW);
+    void* symbol = library != nullptr ? dlsym(library, image_codec_symbol) : nullptr;
+    if (symbol == nullptr)
+      throw std::runtime_error(fmt::format("cannot load the picture module: {}", dlerror()));
+    return *reinterpret_cast<ImageCodecEntry*>(symbol)();
+  }();
+  return loaded;
+}
+
 template <typename T>
-void write_pixels(const std::string& temporary, const std::string& path, const Image& image,
-                  const Metadata& metadata, OIIO::TypeDesc type, const std::vector<T>& data) {
-  OIIO::ImageSpec spec(image.width, image.height, 3, type);
-  for (const auto& [key, value] : metadata) spec.attribute(key, value);
-  // OpenImageIO would put the clock in; the same scene and seed must give the same file.
-  spec.attribute("DateTime", "2000:01:01 00:00:00");
-  if (type == OIIO::TypeDesc::FLOAT) {
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-  } else {
-    spec.attribute("oiio:ColorSpace", "sRGB");
-  }
-  const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(temporary);
-  const bool written =
-      out && out->open(temporary, spec) && out->write_image(type, data.data()) && out->close();
-  if (!written)
-    throw std::runtime_error(fmt::format("{}: cannot write the picture: {}", path,
-                                         out ? out->geterror() : OIIO::geterror()));
+PixelBlock<T> pixel_block(const Image& image, T (*convert)(double)) {
+  PixelBlock<T> block{image.width, image.height, {}};
+  block.values.reserve(3 * image.pixels.size());
+  for (const Spectrum& c : image.pixels)
+    for (const double x : c) block.values.push_back(convert(x));
+  return block;
 }
 
 }  // namespace
@@ -71,28 +70,7 @@ void check_image_extension(const std::string& path) {
 Image read_image(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
     throw InputError(fmt::format("{}: no such file, expected a picture", path));
-  OIIO::ImageBuf buffer(path);
-  if (!buffer.read(0, 0, true, OIIO::TypeDesc::FLOAT))
-    throw InputError(fmt::format("{}: cannot read the picture: {}", path, buffer.geterror()));
-  Image image{buffer.spec().width, buffer.spec().height, {}};
-  const int channels = buffer.nchannels();
-  const bool encoded = buffer.spec().get_string_attribute("oiio:ColorSpace") == "sRGB";
-  std::vector<float> pixel(static_cast<std::size_t>(channels));
-  image.pixels.reserve(static_cast<std::size_t>(image.width) * image.height);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      buffer.getpixel(buffer.spec().x + x, buffer.spec().y + y, pixel.data(), channels);
-      Spectrum value;
-      for (int c = 0; c < 3; ++c) {
-        const double v = pixel[channels >= 3 ? static_cast<std::size_t>(c) : 0U];
-        if (!std::isfinite(v) || v < 0.0)
-          throw InputError(
-              fmt::format("{}: pixel ({}, {}) is {}, expected finite values >= 0", path, x, y, v));
-        value[c] = !encoded ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-      }
-      image.pixels.push_back(value);
-    }
-  return image;
+  return codec().read(path);
 }
 
 Image tone_map(const Image& linear) {
@@ -119,17 +97,17 @@ void write_image(const std::string& path, const Image& image, const Metadata& me
       throw std::runtime_error(path + ": the picture has pixels that are not finite");
   const bool png = std::filesystem::path(path).extension() == ".png";
   write_atomically(path, [&](const std::string& temporary) {
-    if (png) {
-      std::vector<unsigned char> data;
-      for (const Spectrum& c : tone_map(image).pixels)
-        for (const double x : c) data.push_back(static_cast<unsigned char>(std::lround(255.0 * x)));
-      write_pixels(temporary, path, image, metadata, OIIO::TypeDesc::UINT8, data);
-    } else {
-      std::vector<float> data;
-      for (const Spectrum& c : image.pixels)
-        for (const double x : c) data.push_back(static_cast<float>(x));
-      write_pixels(temporary, path, image, metadata, OIIO::TypeDesc::FLOAT, data);
-    }
+    if (png)
+      codec().write_bytes(
+          temporary,
+          pixel_block<unsigned char>(
+              tone_map(image),
+              [](double x) { return static_cast<unsigned char>(std::lround(255.0 * x)); }),
+          metadata);
+    else
+      codec().write_float(temporary,
+                          pixel_block<float>(image, [](double x) { return static_cast<float>(x); }),
+                          metadata);
   });
 }
 

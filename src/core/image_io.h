@@ -1,4 +1,4 @@
-// The one file that knows OpenImageIO. Images are written whole or not at all.
+// Pictures in and out (OpenImageIO, in image_module/). Images are written whole or not at all.
 #pragma once
 
 #include <string>

@@ -1,17 +1,19 @@
 #include "render/camera.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "core/units.h"
 
 namespace knotlight {
 
-CameraRays::CameraRays(const Camera& camera) : camera_(camera) {
-  forward_ = (camera.to - camera.from).normalized();
-  right_ = forward_.cross(camera.up).normalized();
-  up_ = right_.cross(forward_);
+CameraRays::CameraRays(const Camera& camera)
+    : camera_(camera),
+      forward_((camera.to - camera.from).normalized()),
+      right_(forward_.cross(camera.up).normalized()),
+      up_(right_.cross(forward_)) {
   const double aspect = static_cast<double>(camera.width_px) / camera.height_px;
   if (camera.type == Camera::Type::perspective) {
-    half_height_ = std::tan(0.5 * camera.fov * std::numbers::pi / 180.0);
+    half_height_ = std::tan(0.5 * radians(camera.fov));
     half_width_ = half_height_ * aspect;
   } else {
     half_width_ = 0.5 * camera.width;

@@ -41,8 +41,10 @@ class Picture {
     const int rows = camera.samples / columns;
     Spectrum sum = Spectrum::Zero();
     for (int s = 0; s < camera.samples; ++s) {
-      const double dx = (s % columns + rng.uniform()) / columns;
-      const double dy = (s / columns + rng.uniform()) / rows;
+      const int column = s % columns;
+      const int row = s / columns;
+      const double dx = (column + rng.uniform()) / columns;
+      const double dy = (row + rng.uniform()) / rows;
       sum += radiance(camera_.ray(x + dx, y + dy), mirror_bounces, rng);
     }
     return sum / camera.samples;

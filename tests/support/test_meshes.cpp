@@ -123,11 +123,15 @@ TriangleMesh without_triangle(TriangleMesh mesh, std::size_t triangle) {
   return mesh;
 }
 
-std::size_t open_edges(const TriangleMesh& mesh) {
+namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+std::vector<Edge> find_open_edges(const TriangleMesh& mesh) {
   struct Uses {
     int forward = 0, backward = 0;
   };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Uses> uses;
+  std::map<Edge, Uses> uses;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t a = t[i];
@@ -136,9 +140,23 @@ std::size_t open_edges(const TriangleMesh& mesh) {
       ++(a < b ? edge.forward : edge.backward);
     }
   }
-  std::size_t open = 0;
-  for (const auto& [edge, use] : uses) open += use.forward != 1 || use.backward != 1 ? 1 : 0;
+  std::vector<Edge> open;
+  for (const auto& [edge, use] : uses)
+    if (use.forward != 1 || use.backward != 1) open.push_back(edge);
   return open;
+}
+
+}  // namespace
+
+std::size_t open_edges(const TriangleMesh& mesh) {
+  return find_open_edges(mesh).size();
+}
+
+double length_of_open_edges(const TriangleMesh& mesh) {
+  double length = 0.0;
+  for (const auto& [a, b] : find_open_edges(mesh))
+    length += (mesh.vertices[a] - mesh.vertices[b]).norm();
+  return length;
 }
 
 double longest_edge(const TriangleMesh& mesh) {

@@ -30,6 +30,7 @@ TriangleMesh without_triangle(TriangleMesh mesh, std::size_t triangle);
 // Number of edges that do not belong to exactly two triangles running through them in opposite
 // directions: 0 for a closed, consistently oriented mesh.
 std::size_t open_edges(const TriangleMesh& mesh);
+double length_of_open_edges(const TriangleMesh& mesh);
 double longest_edge(const TriangleMesh& mesh);
 
 // A file in the system's folder for temporary files, removed with the object.
