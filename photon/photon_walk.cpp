@@ -117,11 +117,11 @@ std::optional<Hit> PhotonWalk::next_outside(const Flight& flight) const {
     for (const std::uint32_t other : items_[flight.object].touching_opaque)
       if (auto hit = contact(flight.position, flight.direction, other)) return hit;
     for (const std::uint32_t other : items_[flight.object].touching) {
-      const auto hit = contact(flight.position, flight.direction, other);
+      auto hit = contact(flight.position, flight.direction, other);
       if (hit && flight.direction.dot(hit->normal) < 0.0) return hit;
     }
   }
-  const auto hit = caster_.nearest(flight.ray());
+  auto hit = caster_.nearest(flight.ray());
   if (hit)
     for (const std::uint32_t other : items_[hit->object].touching_opaque)
       if (auto shield = contact(hit->position, flight.direction, other)) return shield;

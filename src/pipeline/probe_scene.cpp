@@ -114,7 +114,7 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
               }
               const SolvedChannel& channel =
                   solved.objects[place->object][static_cast<std::size_t>(c)];
-              row += fmt::format(",{},{}", channel.field.value(place->point),
+              row += fmt::format(",{},{}", channel.U_d_at(place->point),
                                  channel.photons.U_ri(place->point, estimate, *prepared.caster,
                                                       prepared.translucent[place->object]));
             }

@@ -49,14 +49,13 @@ std::vector<std::optional<GlowingSurface>> evaluate_surfaces(const PreparedScene
     GlowingSurface& surface = *surfaces[index];
     const Points& nodes = surface.grid.nodes();
     for (int c = 0; c < scene.channels; ++c) {
-      const BkmField& field = solved.objects[i][static_cast<std::size_t>(c)].field;
+      const FieldValues& U_d = solved.objects[i][static_cast<std::size_t>(c)].U_d;
       Eigen::VectorXd values(nodes.cols());
       run.workers.for_chunks(static_cast<std::size_t>(nodes.cols()), nodes_per_chunk,
                              [&](std::size_t, std::size_t begin, std::size_t end) {
                                const auto first = static_cast<Eigen::Index>(begin);
                                const auto count = static_cast<Eigen::Index>(end - begin);
-                               values.segment(first, count) =
-                                   field.values(nodes.middleCols(first, count));
+                               values.segment(first, count) = U_d(nodes.middleCols(first, count));
                                stage.advance(end - begin);
                              });
       surface.U_d.push_back(std::move(values));

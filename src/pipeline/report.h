@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "photon/energy_audit.h"
@@ -18,21 +19,11 @@ struct ChannelReport {
 
   std::size_t photons = 0;    // recorded in the object
   double photon_power = 0.0;  // of the light that interacts first there, W
-  std::size_t boundary_knots = 0;
-  std::size_t interior_knots = 0;
-  std::size_t interior_knots_dropped = 0;  // would have lain outside
-  double gaussian_width = 0.0;             // length
-  int particular_rank = 0;
-  int homogeneous_rank = 0;
-  double particular_condition = 0.0;
-  double homogeneous_condition = 0.0;
+  // What else the method has to tell, by name (docs/json.md).
+  std::vector<std::pair<std::string, double>> figures;
 
-  double robin_residual = 0.0;   // max at points that are not knots, relative
-  double source_residual = 0.0;  // max |f - f~| over max |f|, at points that are not knots
-  // Bound on the field's error from both residuals, over the least that the largest true |U_d| can
-  // then be; infinite if the bound leaves nothing.
-  double numerical_error = 0.0;
-  double noise = 0.0;  // rms over the check points, from two halves of the photons, relative
+  double numerical_error = 0.0;   // of solving the equations given the photons; may be infinite
+  double noise = 0.0;             // rms on the surface, from two halves of the photons
   double error_estimate = 0.0;    // numerical_error + noise
   double energy_imbalance = 0.0;  // (leaving + absorbed - scattered in - emitted) / (in + emitted)
   double energy_imbalance_standard_error = 0.0;  // of the volume integral

@@ -61,16 +61,8 @@ void add_solution(Json& json, const std::vector<ChannelReport>& channels) {
   add("k", [](auto& c) { return c.k; });
   add("photons", [](auto& c) { return c.photons; });
   add("photon_power", [](auto& c) { return c.photon_power; });
-  add("boundary_knots", [](auto& c) { return c.boundary_knots; });
-  add("interior_knots", [](auto& c) { return c.interior_knots; });
-  add("interior_knots_dropped", [](auto& c) { return c.interior_knots_dropped; });
-  add("gaussian_width", [](auto& c) { return c.gaussian_width; });
-  add("particular_rank", [](auto& c) { return c.particular_rank; });
-  add("homogeneous_rank", [](auto& c) { return c.homogeneous_rank; });
-  add("particular_condition", [](auto& c) { return c.particular_condition; });
-  add("homogeneous_condition", [](auto& c) { return c.homogeneous_condition; });
-  add("robin_residual", [](auto& c) { return c.robin_residual; });
-  add("source_residual", [](auto& c) { return c.source_residual; });
+  for (std::size_t i = 0; i < channels.front().figures.size(); ++i)
+    add(channels.front().figures[i].first.c_str(), [i](auto& c) { return c.figures[i].second; });
   add("numerical_error", [](auto& c) { return c.numerical_error; });
   add("noise", [](auto& c) { return c.noise; });
   add("error_estimate", [](auto& c) { return c.error_estimate; });

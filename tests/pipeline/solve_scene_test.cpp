@@ -57,7 +57,7 @@ TEST(SolveScene, GlowingBallAgainstItsClosedForm) {
   const double C = 1.0 / (std::sinh(l) + c.k * (l * std::cosh(l) - std::sinh(l)));
   for (const double r : {0.05, 0.3, 0.6, 0.9, 1.0}) {
     const double exact = P * (1.0 - C * std::sinh(l * r) / r);
-    EXPECT_NEAR(channel.field.value(r * Vec3(0.6, 0.0, 0.8)), exact, 0.01 * P) << r;
+    EXPECT_NEAR(channel.U_d_at(r * Vec3(0.6, 0.0, 0.8)), exact, 0.01 * P) << r;
   }
   EXPECT_NEAR(channel.report.power_in, medium.emission * 4.0 / 3.0 * pi, 1e-9);
   EXPECT_LT(std::abs(channel.report.energy_imbalance), 0.03);
@@ -71,7 +71,7 @@ TEST(SolveScene, DarknessIsExact) {
   const PreparedScene prepared = lit_ball({0.5, 4.5, 0.0, 1.0, 0.0}, settings(1000, 60));
   RunContext run(RunOptions{}, false);
   const SolvedScene solved = solve_scene(prepared, run);
-  EXPECT_EQ(solved.objects[0][0].field.value(Vec3(0.1, 0.2, 0.3)), 0.0);
+  EXPECT_EQ(solved.objects[0][0].U_d_at(Vec3(0.1, 0.2, 0.3)), 0.0);
   EXPECT_EQ(solved.objects[0][0].report.error_estimate, 0.0);
   EXPECT_TRUE(solved.report.failures.empty());
 }

@@ -1,0 +1,48 @@
+// What every method is given for one object in one channel, and what it gives back.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/medium.h"
+#include "core/parallel.h"
+#include "pipeline/photon_halves.h"
+#include "scene/scene.h"
+#include "trace/ray_caster.h"
+
+namespace knotlight {
+
+struct ChannelProblem {
+  const Shape& shape;
+  const Medium& medium;
+  const DiffusionCoefficients& coefficients;
+  const SolverSettings& settings;
+  const PhotonHalves& photons;
+  const RayCaster& caster;
+  std::uint32_t object;  // index in the caster
+  std::uint64_t seed;
+  const Workers& workers;
+};
+
+// U_d at points in or on the object (3 x N), N values, W/(length^2 sr).
+using FieldValues = std::function<Eigen::VectorXd(const Points&)>;
+
+struct ChannelSolution {
+  FieldValues U_d;
+  bool solved = false;           // false: U_d is 0 everywhere, failures say why
+  double numerical_error = 0.0;  // of solving the equations given the photons, relative
+  double noise = 0.0;            // of the photons, relative
+  // Figures of this method by name, for the summary (docs/json.md).
+  std::vector<std::pair<std::string, double>> figures;
+  std::vector<std::string> failures;  // what this method could not do, one sentence each
+};
+
+// 0/0 = 0: an object that no light reaches is dark, and that is exact.
+inline double relative(double part, double whole) {
+  return part == 0.0 ? 0.0 : part / whole;
+}
+
+}  // namespace knotlight

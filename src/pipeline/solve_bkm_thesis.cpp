@@ -1,0 +1,148 @@
+#include "pipeline/solve_bkm_thesis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bkm/certificate.h"
+#include "bkm/knots.h"
+#include "bkm/thesis_solver.h"
+#include "photon/source_terms.h"
+#include "pipeline/sample_points.h"
+
+namespace knotlight {
+namespace {
+
+constexpr std::size_t default_knots = 484;  // the thesis's usual number [V09 fig. 7.2]
+constexpr std::size_t boundary_checks = 512;
+constexpr std::size_t interior_checks = 1024;
+// Interior check points lie at random depths down to this many transport mean free paths, where the
+// source lives and changes fastest.
+constexpr double check_depth = 3.0;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A set of points with the right-hand sides there.
+struct Places {
+  SurfaceSamples surface;
+  Points interior;
+};
+
+struct RightHandSides {
+  SourceTerms halves[2];
+
+  Eigen::VectorXd f() const { return 0.5 * (halves[0].f + halves[1].f); }
+  Eigen::VectorXd g() const { return 0.5 * (halves[0].g + halves[1].g); }
+};
+
+RightHandSides right_hand_sides(const Places& places, const ChannelProblem& p) {
+  SourceTermOptions options;
+  options.estimate = estimate_options(p.settings);
+  options.boundary = p.settings.boundary;
+  options.divergence = p.settings.divergence;
+  RightHandSides result;
+  for (std::size_t half = 0; half < 2; ++half)
+    result.halves[half] =
+        source_terms(places.surface.positions, places.surface.normals, places.interior,
+                     p.photons.maps[half], p.medium, options, p.caster, p.object, p.workers);
+  return result;
+}
+
+// Points that are not knots: on the surface, and below it where the source lives. Those that would
+// lie outside are left out.
+Places check_places(const ChannelProblem& p) {
+  const auto on_surface = [&](std::size_t count, std::uint64_t seed) {
+    return columns(stratified_surface_points(p.shape, count, true, seed, Stream::check_points));
+  };
+  Places places{on_surface(boundary_checks, p.seed), {}};
+  const SurfaceSamples roots = on_surface(interior_checks, p.seed + 1);
+  const double depth = check_depth / p.medium.sigma_tr();
+  Rng rng(p.seed, Stream::check_points, p.object);
+  Points points(3, roots.positions.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Vec3 x = roots.positions.col(i) - depth * rng.uniform() * roots.normals.col(i);
+    if (p.caster.inside(x, p.object)) points.col(count++) = x;
+  }
+  places.interior = points.leftCols(count);
+  return places;
+}
+
+double root_mean_square(const Eigen::VectorXd& v) {
+  return std::sqrt(v.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, v.size())));
+}
+
+double largest(const Eigen::VectorXd& v) {
+  return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
+}
+
+}  // namespace
+
+ChannelSolution solve_by_bkm_thesis(const ChannelProblem& p) {
+  ChannelSolution solution;
+
+  // Knots [V09 ch. 7]: strata of the surface, and 1 and 3/2 transport mean free paths below them.
+  const std::size_t count = p.settings.knots.value_or(default_knots);
+  Places knots{columns(stratified_surface_points(p.shape, count, p.settings.jitter, p.seed,
+                                                 Stream::boundary_knots)),
+               {}};
+  const double mean_free_path = 1.0 / p.medium.sigma_tr();
+  const InteriorKnots interior = interior_knots(
+      knots.surface.positions, knots.surface.normals, {mean_free_path, 1.5 * mean_free_path},
+      [&](const Vec3& x) { return p.caster.inside(x, p.object); });
+  knots.interior = interior.points;
+
+  const BkmThesisProblem problem{p.coefficients.lambda, p.coefficients.k, knots.surface.positions,
+                                 knots.surface.normals, knots.interior};
+  BkmThesisOptions options;
+  options.c = p.settings.shape_parameter.value_or(default_shape_parameter()) *
+              mean_knot_spacing(surface_area(p.shape), count);
+  if (p.settings.svd_cut) options.relative_cut = *p.settings.svd_cut;
+  const BkmThesisSolver solver(problem, options);
+
+  const RightHandSides at_knots = right_hand_sides(knots, p);
+  const BkmField field = solver.solve(at_knots.f(), at_knots.g());
+  const BkmField half_field = solver.solve(at_knots.halves[0].f, at_knots.halves[0].g);
+
+  const Places checks = check_places(p);
+  const RightHandSides at_checks = right_hand_sides(checks, p);
+  const Eigen::VectorXd f = at_checks.f().tail(checks.interior.cols());
+  const Certificate certificate =
+      certify(field, problem, checks.surface.positions, checks.surface.normals, at_checks.g(),
+              checks.interior, f);
+  // Relative to the least that the true field can be: a field that is all error would otherwise
+  // call itself 100 % off.
+  const double least_scale = certificate.scale - certificate.error_bound;
+  solution.numerical_error = least_scale > 0.0 || certificate.error_bound == 0.0
+                                 ? relative(certificate.error_bound, least_scale)
+                                 : infinity;
+  solution.noise = relative(root_mean_square(half_field.values(checks.surface.positions) -
+                                             field.values(checks.surface.positions)),
+                            certificate.scale);
+  solution.solved = solver.ok() && certificate.trusted;
+  if (!solver.ok())
+    solution.failures.push_back("the linear systems could not be solved: " + solver.message());
+  else if (!certificate.trusted)
+    solution.failures.push_back("the solution has values that are not finite");
+  if (interior.dropped > count)
+    solution.failures.push_back(
+        fmt::format("{} of {} interior knots would lie outside: the object is too thin for them",
+                    interior.dropped, 2 * count));
+
+  solution.figures = {
+      {"boundary_knots", static_cast<double>(count)},
+      {"interior_knots", static_cast<double>(knots.interior.cols())},
+      {"interior_knots_dropped", static_cast<double>(interior.dropped)},
+      {"gaussian_width", options.c},
+      {"particular_rank", solver.particular_rank()},
+      {"homogeneous_rank", solver.homogeneous_rank()},
+      {"particular_condition", solver.particular_condition()},
+      {"homogeneous_condition", solver.homogeneous_condition()},
+      {"robin_residual", relative(certificate.robin_residual_max, certificate.scale)},
+      {"source_residual", relative(certificate.source_residual_max, largest(f))}};
+  solution.U_d = [field](const Points& x) { return field.values(x); };
+  return solution;
+}
+
+}  // namespace knotlight
