@@ -1,5 +1,6 @@
 #include "bkm/assembly.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 extern "C" {
 // LAPACK 3, driver dgesdd: a = u diag(s) vt by divide and conquer; column-major.

@@ -1,5 +1,6 @@
 #include "bkm/field.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 

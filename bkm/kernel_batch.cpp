@@ -64,7 +64,7 @@ Batch nonsingular_values(const Batch& s, double lambda, double R) {
   const double scale = std::exp(-lambda * R);
   if (all_small(y)) return scale * i0_series(y);
   const Exponentials e = exponentials(y, lambda * R);
-  const Batch closed = e.grown * (1.0 - e.decayed);
+  Batch closed = e.grown * (1.0 - e.decayed);
   if (!any_small(y)) return closed;
   return (y < series_limit).select(scale * i0_series(y), closed);
 }

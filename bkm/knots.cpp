@@ -31,7 +31,7 @@ double mean_knot_spacing(double area, std::size_t knots) {
 }
 
 double default_shape_parameter() {
-  return 4.0;
+  return 8.0;
 }
 
 }  // namespace knotlight

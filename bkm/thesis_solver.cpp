@@ -1,6 +1,8 @@
 #include "bkm/thesis_solver.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "bkm/assembly.h"

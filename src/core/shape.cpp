@@ -30,7 +30,8 @@ std::vector<SurfacePoint> sphere_points(const Sphere& sphere, std::size_t count,
   std::vector<SurfacePoint> points;
   points.reserve(count);
   const double n = static_cast<double>(count);
-  const auto bands = std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(0.5 * n) + 0.5));
+  const auto bands =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(std::sqrt(0.5 * n))));
   for (std::size_t band = 0; band < bands; ++band) {
     const std::size_t first = count * band / bands;
     const std::size_t cells = count * (band + 1) / bands - first;

@@ -56,9 +56,10 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
       const Validity validity =
           diffusion_validity(object.shape, object.translucent()->medium(static_cast<int>(c)));
       for (const std::string& failure : channel.failures)
-        result.report.failures.push_back(where + ": " + failure);
+        result.report.failures.push_back(fmt::format("{}: {}", where, failure));
       for (const std::string& reason : validity.reasons)
-        result.report.failures.push_back(where + ": diffusion does not hold: " + reason);
+        result.report.failures.push_back(
+            fmt::format("{}: diffusion does not hold: {}", where, reason));
       report.validity.push_back(validity);
       report.channels.push_back(channel.report);
       result.objects.back().push_back(std::move(channel));

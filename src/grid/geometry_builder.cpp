@@ -1,0 +1,300 @@
+#include "grid/geometry_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "grid/shape_mesh.h"
+#include "grid/surface_pieces.h"
+
+namespace knotlight {
+namespace {
+
+constexpr double most_cells = 1 << 30;  // 32-bit numbers of nodes
+constexpr std::int32_t outside = -1, whole = -2, surface = -3;  // cells before pieces are numbered
+constexpr std::size_t cells_per_chunk = 1024;
+// A cell with less of the object is left out, and its surface goes with the cell beside it: below
+// this, volumes are rounding.
+constexpr double least_volume = 1e-9;
+// Coarsening ends here: a dense factorisation of this size costs less than a millisecond.
+constexpr std::int32_t coarsest_unknowns = 200;
+
+// What calls a shape unresolved. Shares of the whole that would show as errors of a per cent.
+constexpr double volume_allowed = 0.01;
+constexpr double area_allowed = 0.01;
+constexpr double thin_allowed = 0.05;
+constexpr double unsure_allowed = 1e-3;  // of the lines
+
+}  // namespace
+
+void GeometryBuilder::build(const Shape& shape, double h) {
+  const double true_volume = volume(shape), true_area = surface_area(shape);
+  const Bounds box = bounds(shape);
+  const Vec3 cells = (box.hi - box.lo) / h + Vec3::Constant(4.0);
+  geometry_.levels_.resize(1);
+  level().grid.h = h;
+  if (!(h > 0.0) || !(true_volume > 0.0) || !std::isfinite(true_volume)) {
+    geometry_.failure_ = "the shape has no volume, or its cells no size";
+    return;
+  }
+  if (!(cells.prod() < most_cells)) {
+    geometry_.failure_ = fmt::format("{:.3g} cells are too many", cells.prod());
+    return;
+  }
+  level().grid = grid_around(shape, h);
+  const TriangleMesh mesh = mesh_in_cells(shape, level().grid);
+  level().first_piece.assign(level().grid.cells(), outside);
+  find_surface_cells(mesh);
+  {
+    std::array<std::unique_ptr<ScanLines>, 3> made;
+    workers_.for_chunks(3, 1, [&](std::size_t axis, std::size_t, std::size_t) {
+      made[axis] = std::make_unique<ScanLines>(mesh, level().grid.n, static_cast<int>(axis));
+    });
+    const AxisLines lines{std::move(*made[0]), std::move(*made[1]), std::move(*made[2])};
+    for (const ScanLines& l : lines) geometry_.quality_.unsure_lines += l.unsure_lines();
+    find_whole_cells(lines[0]);
+    sample_surface_cells(lines);
+  }
+  make_pieces();
+  if (level().pieces.empty()) {
+    geometry_.failure_ = "no cell holds any of the object: it is far thinner than a cell";
+    return;
+  }
+  add_split_volumes();
+  add_surface(mesh);
+  loosen_lone_pieces();
+  number_unknowns(level());
+  judge(true_volume, true_area);
+  while (geometry_.levels_.back().dofs > coarsest_unknowns)
+    geometry_.levels_.push_back(coarser(geometry_.levels_.back()));
+}
+
+void GeometryBuilder::find_surface_cells(const TriangleMesh& mesh) {
+  std::vector<std::int32_t>& state = level().first_piece;
+  for_each_surface_piece(mesh, [&](const SurfacePiece& piece) {
+    const auto cell =
+        static_cast<std::size_t>(level().grid.index(piece.cell[0], piece.cell[1], piece.cell[2]));
+    if (state[cell] == outside) {
+      state[cell] = surface - static_cast<std::int32_t>(surface_cells_.size());
+      surface_cells_.push_back({static_cast<std::int32_t>(cell), Vec3::Zero()});
+    }
+    surface_cells_[static_cast<std::size_t>(surface - state[cell])].facing +=
+        piece.area * piece.normal.cwiseAbs();
+  });
+  for (const SurfaceCell& s : surface_cells_) state[static_cast<std::size_t>(s.cell)] = surface;
+  std::sort(surface_cells_.begin(), surface_cells_.end(),
+            [](const SurfaceCell& a, const SurfaceCell& b) { return a.cell < b.cell; });
+}
+
+// A cell without surface is inside or outside as its centre is; a line beside the centre tells.
+void GeometryBuilder::find_whole_cells(const ScanLines& x_lines) {
+  const auto& n = level().grid.n;
+  constexpr int middle = lines_per_cell / 2;
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (const Interval& part :
+           x_lines.line(lines_per_cell * j + middle, lines_per_cell * k + middle)) {
+        const int first = std::max(0, static_cast<int>(std::ceil(part.begin - 0.5)));
+        const int last = std::min(n[0] - 1, static_cast<int>(std::floor(part.end - 0.5)));
+        for (int i = first; i <= last; ++i) {
+          std::int32_t& state =
+              level().first_piece[static_cast<std::size_t>(level().grid.index(i, j, k))];
+          if (state == outside) state = whole;
+        }
+      }
+}
+
+void GeometryBuilder::sample_surface_cells(const AxisLines& lines) {
+  samples_.resize(surface_cells_.size());
+  workers_.for_chunks(samples_.size(), cells_per_chunk,
+                      [&](std::size_t, std::size_t begin, std::size_t end) {
+                        for (std::size_t s = begin; s < end; ++s)
+                          samples_[s] = sample_cell(
+                              lines, level().grid.position(surface_cells_[s].cell),
+                              surface_cells_[s].facing);
+                      });
+}
+
+// Pieces in the order of their cells; volumes of cells that no gap divides.
+void GeometryBuilder::make_pieces() {
+  std::vector<std::int32_t>& state = level().first_piece;
+  std::size_t next_sample = 0;
+  for (std::size_t cell = 0; cell < state.size(); ++cell) {
+    if (state[cell] == outside) continue;
+    const auto first = static_cast<std::int32_t>(level().pieces.size());
+    if (state[cell] == whole) {
+      level().pieces.push_back({static_cast<std::int32_t>(cell), -1, {}});
+      state[cell] = first;
+      continue;
+    }
+    CellSample& sample = samples_[next_sample++];
+    Moments seen{};
+    for (int line = 0; line < 16; ++line)
+      for (const LinePart& part : sample.lines[static_cast<std::size_t>(line)])
+        add_line_part(seen, sample.axis, line, part, Vec3::Zero());
+    if (!(total(seen) > least_volume)) {
+      state[cell] = outside;
+      continue;
+    }
+    if (sample.parts.empty()) sample.parts.push_back(0);
+    for (const Places places : sample.parts) {
+      CutPiece cut;
+      cut.piece = static_cast<std::int32_t>(level().pieces.size());
+      cut.inside = places;
+      cut.links = sample.links;
+      if (!sample.split()) cut.volume = seen;
+      level().pieces.push_back({static_cast<std::int32_t>(cell),
+                                static_cast<std::int32_t>(level().cuts.size()), {}});
+      level().cuts.push_back(cut);
+    }
+    state[cell] = first;
+    if (sample.split())
+      geometry_.splits_.emplace_back(static_cast<std::int32_t>(cell), std::move(sample));
+  }
+  samples_.clear();
+}
+
+// The piece that a part of a line belongs to: the one that has a place on it. A part too thin for
+// that continues in the next cell.
+std::int32_t GeometryBuilder::owner_of(std::int32_t cell, const CellSample& sample, int line,
+                                       const LinePart& part) const {
+  const Level& fine = geometry_.finest();
+  const auto p = fine.grid.position(cell);
+  const auto holder = [&](const std::array<int, 3>& at, int layer) {
+    const auto [first, last] = fine.pieces_of(at[0], at[1], at[2]);
+    for (std::int32_t piece = first; piece < last; ++piece) {
+      const Places inside = fine.whole(piece) ? all_places : fine.cut(piece).inside;
+      if ((inside >> place_bit(sample.axis, layer, line) & 1) != 0) return piece;
+    }
+    return std::int32_t{-1};
+  };
+  for (int layer = 0; layer < lines_per_cell; ++layer) {
+    const double at = (layer + 0.5) / lines_per_cell;
+    if (at < part.begin || at > part.end) continue;
+    if (const std::int32_t piece = holder(p, layer); piece >= 0) return piece;
+  }
+  for (const int side : {-1, 1}) {
+    if (side < 0 ? part.begin > 0.0 : part.end < 1.0) continue;
+    auto beside = p;
+    beside[static_cast<std::size_t>(sample.axis)] += side;
+    if (const std::int32_t piece = holder(beside, side < 0 ? lines_per_cell - 1 : 0); piece >= 0)
+      return piece;
+  }
+  return fine.first_piece[static_cast<std::size_t>(cell)];
+}
+
+CutPiece& GeometryBuilder::cut_of(std::int32_t piece) {
+  Piece& p = level().pieces[static_cast<std::size_t>(piece)];
+  if (p.cut < 0) {
+    p.cut = static_cast<std::int32_t>(level().cuts.size());
+    CutPiece cut;
+    cut.piece = piece;
+    cut.volume = full_cell_moments();
+    cut.inside = all_places;
+    cut.links.fill(0xffff);
+    level().cuts.push_back(cut);
+  }
+  return level().cuts[static_cast<std::size_t>(p.cut)];
+}
+
+void GeometryBuilder::add_split_volumes() {
+  for (auto& [cell, sample] : geometry_.splits_)
+    for (int line = 0; line < 16; ++line)
+      for (LinePart& part : sample.lines[static_cast<std::size_t>(line)])
+        part.piece = owner_of(cell, sample, line, part);
+  for (const auto& [cell, sample] : geometry_.splits_)
+    for (int line = 0; line < 16; ++line)
+      for (const LinePart& part : sample.lines[static_cast<std::size_t>(line)]) {
+        const auto home = level().grid.position(cell);
+        const auto owner =
+            level().grid.position(level().pieces[static_cast<std::size_t>(part.piece)].cell);
+        const Vec3 shift(owner[0] - home[0], owner[1] - home[1], owner[2] - home[2]);
+        add_line_part(cut_of(part.piece).volume, sample.axis, line, part, shift);
+      }
+}
+
+void GeometryBuilder::add_surface(const TriangleMesh& mesh) {
+  const Level& fine = level();
+  const auto near_whole_cell = [&](const std::array<int, 3>& c) {
+    for (int k = c[2] - 1; k <= c[2] + 1; ++k)
+      for (int j = c[1] - 1; j <= c[1] + 1; ++j)
+        for (int i = c[0] - 1; i <= c[0] + 1; ++i) {
+          const auto [first, last] = fine.pieces_of(i, j, k);
+          if (last > first && (fine.whole(first) ||
+                               total(fine.cut(first).volume) > 1.0 - least_volume))
+            return true;
+        }
+    return false;
+  };
+  for_each_surface_piece(mesh, [&](const SurfacePiece& piece) {
+    const Vec3 centroid = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3.0;
+    constexpr double nudge = 0.2;  // as in GridGeometry::locate
+    const Place place = geometry_.locate_in_cells(
+        Vec3(piece.cell[0] + 0.5, piece.cell[1] + 0.5, piece.cell[2] + 0.5),
+        centroid - nudge * piece.normal);
+    if (!near_whole_cell(piece.cell)) area_thin_ += piece.area;
+    if (place.piece < 0) return;
+    area_found_ += piece.area;
+    const auto p = fine.grid.position(fine.pieces[static_cast<std::size_t>(place.piece)].cell);
+    CutPiece& cut = cut_of(place.piece);
+    for (const SurfaceNode& node : quadrature(piece))
+      add_point(cut.surface, node.position - Vec3(p[0], p[1], p[2]), node.weight);
+  });
+}
+
+// A piece that is linked to nothing is a corner of the object that its neighbours' samples do not
+// see: taken as connected to all of them.
+void GeometryBuilder::loosen_lone_pieces() {
+  std::vector<std::size_t> lone;
+  const Level& fine = level();
+  for (std::size_t c = 0; c < fine.cuts.size(); ++c) {
+    const std::int32_t piece = fine.cuts[c].piece;
+    const auto p = fine.grid.position(fine.pieces[static_cast<std::size_t>(piece)].cell);
+    bool linked = false;
+    for (int axis = 0; axis < 3 && !linked; ++axis)
+      for (const int side : {-1, 1}) {
+        auto q = p;
+        q[static_cast<std::size_t>(axis)] += side;
+        const auto [first, last] = fine.pieces_of(q[0], q[1], q[2]);
+        for (std::int32_t other = first; other < last; ++other)
+          linked = linked || (side < 0 ? connected(fine, other, piece, axis)
+                                       : connected(fine, piece, other, axis));
+      }
+    if (!linked) lone.push_back(c);
+  }
+  for (const std::size_t c : lone) level().cuts[c].inside = 0;
+}
+
+void GeometryBuilder::judge(double true_volume, double true_area) {
+  GridQuality& q = geometry_.quality_;
+  const double h = level().grid.h;
+  const std::size_t whole_cells =
+      level().pieces.size() - level().cuts.size();
+  double sum = static_cast<double>(whole_cells);
+  for (const CutPiece& cut : level().cuts) sum += total(cut.volume);
+  q.cells = level().pieces.size();
+  q.cut_cells = level().cuts.size();
+  q.volume_error = std::abs(sum * h * h * h / true_volume - 1.0);
+  q.area_error = std::abs(area_found_ * h * h / true_area - 1.0);
+  q.thin_share = area_thin_ * h * h / true_area;
+  q.mean_chord_in_cells = 4.0 * true_volume / (true_area * h);
+  const auto& n = level().grid.n;
+  const double lines = static_cast<double>(lines_per_cell * lines_per_cell) *
+                       (1.0 * n[0] * n[1] + 1.0 * n[1] * n[2] + 1.0 * n[2] * n[0]);
+  if (q.thin_share > thin_allowed)
+    geometry_.unresolved_ =
+        fmt::format("{:.0f} % of the surface is on parts thinner than two or three cells",
+                    100.0 * q.thin_share);
+  else if (q.volume_error > volume_allowed)
+    geometry_.unresolved_ = fmt::format("the cells miss {:.2g} of the volume", q.volume_error);
+  else if (q.area_error > area_allowed)
+    geometry_.unresolved_ = fmt::format("the cells miss {:.2g} of the surface", q.area_error);
+  else if (static_cast<double>(q.unsure_lines) > unsure_allowed * lines)
+    geometry_.unresolved_ = fmt::format(
+        "{} of {:.0f} scan lines do not leave the mesh as often as they enter it", q.unsure_lines,
+        lines);
+}
+
+}  // namespace knotlight

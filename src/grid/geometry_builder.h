@@ -1,0 +1,45 @@
+// Makes a GridGeometry from a shape, step by step.
+#pragma once
+
+#include <vector>
+
+#include "core/mesh.h"
+#include "grid/geometry.h"
+
+namespace knotlight {
+
+class GeometryBuilder {
+ public:
+  GeometryBuilder(GridGeometry& geometry, const Workers& workers)
+      : geometry_(geometry), workers_(workers) {}
+  void build(const Shape& shape, double h);
+
+ private:
+  struct SurfaceCell {
+    std::int32_t cell;
+    Vec3 facing;  // sum of area |n|
+  };
+
+  Level& level() { return geometry_.levels_.front(); }
+  void find_surface_cells(const TriangleMesh& mesh);
+  void find_whole_cells(const ScanLines& x_lines);
+  void sample_surface_cells(const AxisLines& lines);
+  void make_pieces();
+  void add_split_volumes();
+  void add_surface(const TriangleMesh& mesh);
+  void loosen_lone_pieces();
+  void judge(double true_volume, double true_area);
+
+  // The cut record of a piece; a whole cell gets one of its own.
+  CutPiece& cut_of(std::int32_t piece);
+  std::int32_t owner_of(std::int32_t cell, const CellSample& sample, int line,
+                        const LinePart& part) const;
+
+  GridGeometry& geometry_;
+  const Workers& workers_;
+  std::vector<SurfaceCell> surface_cells_;  // by cell
+  std::vector<CellSample> samples_;         // one per surface cell
+  double area_found_ = 0.0, area_thin_ = 0.0;  // in faces of a cell
+};
+
+}  // namespace knotlight

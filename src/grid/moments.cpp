@@ -1,0 +1,112 @@
+#include "grid/moments.h"
+
+#include "grid/cell_grid.h"
+
+namespace knotlight {
+namespace {
+
+using Triple = std::array<double, 3>;
+
+Triple quadratics(double x) {
+  return {(1.0 - x) * (1.0 - x), x * (1.0 - x), x * x};
+}
+
+// Row a: the parent's function a in terms of the child's functions, from X = (x + offset) / 2.
+using Transfer = std::array<Triple, 3>;
+constexpr Transfer to_parent_low{{{1.0, 1.0, 0.25}, {0.0, 0.5, 0.25}, {0.0, 0.0, 0.25}}};
+constexpr Transfer to_parent_high{{{0.25, 0.0, 0.0}, {0.25, 0.5, 0.0}, {0.25, 1.0, 1.0}}};
+
+// Applies the transfer along the axis whose moments are `stride` apart.
+Moments transfer(const Moments& m, const Transfer& t, std::size_t stride) {
+  Moments result{};
+  for (std::size_t i = 0; i < 27; ++i) {
+    const std::size_t a = i / stride % 3;
+    const std::size_t base = i - a * stride;
+    for (std::size_t b = 0; b < 3; ++b) result[i] += t[a][b] * m[base + b * stride];
+  }
+  return result;
+}
+
+}  // namespace
+
+void add_point(Moments& moments, const Vec3& x, double weight) {
+  const Triple fx = quadratics(x.x()), fy = quadratics(x.y()), fz = quadratics(x.z());
+  std::size_t i = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t b = 0; b < 3; ++b) {
+      const double yz = weight * fy[b] * fz[c];
+      for (std::size_t a = 0; a < 3; ++a) moments[i++] += fx[a] * yz;
+    }
+}
+
+Moments full_cell_moments() {
+  constexpr Triple integral{1.0 / 3.0, 1.0 / 6.0, 1.0 / 3.0};
+  Moments m{};
+  for (std::size_t i = 0; i < 27; ++i)
+    m[i] = integral[i % 3] * integral[i / 3 % 3] * integral[i / 9];
+  return m;
+}
+
+// 1 = (1-x)^2 + 2 x (1-x) + x^2.
+double total(const Moments& moments) {
+  constexpr Triple one{1.0, 2.0, 1.0};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 27; ++i)
+    sum += one[i % 3] * one[i / 3 % 3] * one[i / 9] * moments[i];
+  return sum;
+}
+
+void add_to_parent(Moments& parent, const Moments& child, int corner, double measure) {
+  Moments m = child;
+  std::size_t stride = 1;
+  for (const int offset : corner_offset(corner)) {
+    m = transfer(m, offset == 0 ? to_parent_low : to_parent_high, stride);
+    stride *= 3;
+  }
+  for (std::size_t i = 0; i < 27; ++i) parent[i] += measure * m[i];
+}
+
+ElementMatrix mass_matrix(const Moments& moments) {
+  ElementMatrix m;
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      const auto p = corner_offset(i), q = corner_offset(j);
+      m(i, j) =
+          moments[static_cast<std::size_t>(p[0] + q[0] + 3 * (p[1] + q[1]) + 9 * (p[2] + q[2]))];
+    }
+  return m;
+}
+
+// The derivative of a shape function along its axis is +-1, so along that axis the integrand is
+// +-1 = +-((1-x)^2 + 2 x (1-x) + x^2).
+ElementMatrix stiffness_matrix(const Moments& moments) {
+  constexpr Triple one{1.0, 2.0, 1.0};
+  ElementMatrix m = ElementMatrix::Zero();
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      const auto p = corner_offset(i), q = corner_offset(j);
+      const std::array<int, 3> product{p[0] + q[0], 3 * (p[1] + q[1]), 9 * (p[2] + q[2])};
+      std::size_t stride = 1;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t rest =
+            static_cast<std::size_t>(product[0] + product[1] + product[2] - product[axis]);
+        double sum = 0.0;
+        for (std::size_t a = 0; a < 3; ++a) sum += one[a] * moments[rest + a * stride];
+        m(i, j) += p[axis] == q[axis] ? sum : -sum;
+        stride *= 3;
+      }
+    }
+  return m;
+}
+
+ElementVector shape_functions(const Vec3& x) {
+  ElementVector n;
+  for (int c = 0; c < 8; ++c) {
+    const auto o = corner_offset(c);
+    n[c] = (o[0] ? x.x() : 1.0 - x.x()) * (o[1] ? x.y() : 1.0 - x.y()) *
+           (o[2] ? x.z() : 1.0 - x.z());
+  }
+  return n;
+}
+
+}  // namespace knotlight
