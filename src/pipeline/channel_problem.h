@@ -32,7 +32,7 @@ using FieldValues = std::function<Eigen::VectorXd(const Points&)>;
 
 struct ChannelSolution {
   FieldValues U_d;
-  bool solved = false;           // false: U_d is 0 everywhere, failures say why
+  bool solved = false;           // false: U_d is not to be used, failures say why
   double numerical_error = 0.0;  // of solving the equations given the photons, relative
   double noise = 0.0;            // of the photons, relative
   // Figures of this method by name, for the summary (docs/json.md).

@@ -49,15 +49,19 @@ std::vector<std::optional<GlowingSurface>> evaluate_surfaces(const PreparedScene
     GlowingSurface& surface = *surfaces[index];
     const Points& nodes = surface.grid.nodes();
     for (int c = 0; c < scene.channels; ++c) {
-      const FieldValues& U_d = solved.objects[i][static_cast<std::size_t>(c)].U_d;
-      Eigen::VectorXd values(nodes.cols());
-      run.workers.for_chunks(static_cast<std::size_t>(nodes.cols()), nodes_per_chunk,
-                             [&](std::size_t, std::size_t begin, std::size_t end) {
-                               const auto first = static_cast<Eigen::Index>(begin);
-                               const auto count = static_cast<Eigen::Index>(end - begin);
-                               values.segment(first, count) = U_d(nodes.middleCols(first, count));
-                               stage.advance(end - begin);
-                             });
+      const SolvedChannel& solution = solved.objects[i][static_cast<std::size_t>(c)];
+      Eigen::VectorXd values = Eigen::VectorXd::Zero(nodes.cols());
+      // The picture is written all the same, marked as not to be trusted: what could not be solved
+      // stays dark in it.
+      if (solution.solved)
+        run.workers.for_chunks(static_cast<std::size_t>(nodes.cols()), nodes_per_chunk,
+                               [&](std::size_t, std::size_t begin, std::size_t end) {
+                                 const auto first = static_cast<Eigen::Index>(begin);
+                                 const auto count = static_cast<Eigen::Index>(end - begin);
+                                 values.segment(first, count) =
+                                     solution.U_d(nodes.middleCols(first, count));
+                                 stage.advance(end - begin);
+                               });
       surface.U_d.push_back(std::move(values));
       surface.leaving.emplace_back(scene.objects[index].translucent()->medium(c),
                                    scene.solver.boundary, chosen_exitance(scene.solver));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "pipeline/sample_points.h"
@@ -62,7 +63,7 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
                             const Workers& workers) {
   const Medium medium = scene.objects[object].translucent()->medium(channel);
   const DiffusionCoefficients coefficients = diffusion_coefficients(medium, scene.solver.boundary);
-  SolvedChannel result{PhotonHalves(std::move(photons), medium), {}, {}, {}};
+  SolvedChannel result{PhotonHalves(std::move(photons), medium), {}, false, {}, {}};
   const ChannelProblem problem{scene.objects[object].shape,
                                medium,
                                coefficients,
@@ -79,9 +80,9 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
   report.photon_power = result.photons.total_power();
 
   ChannelSolution solution = solve_by_bkm_thesis(problem);
-  // The picture is to be written all the same: what could not be solved stays dark in it.
+  result.solved = solution.solved;
   result.U_d = solution.solved ? std::move(solution.U_d) : [](const Points& x) -> Eigen::VectorXd {
-    return Eigen::VectorXd::Zero(x.cols());
+    return Eigen::VectorXd::Constant(x.cols(), std::numeric_limits<double>::quiet_NaN());
   };
   report.figures = std::move(solution.figures);
   report.numerical_error = solution.numerical_error;

@@ -13,7 +13,8 @@ namespace knotlight {
 // A channel of an object, solved.
 struct SolvedChannel {
   PhotonHalves photons;
-  FieldValues U_d;
+  FieldValues U_d;  // not-a-number everywhere if the method did not come to a solution
+  bool solved;
   ChannelReport report;
   std::vector<std::string> failures;  // checks that failed, one sentence each
 
