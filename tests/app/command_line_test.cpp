@@ -94,6 +94,13 @@ TEST_F(CommandLine, UntrustedNumbersEndWithThreeAndMarkThePicture) {
   EXPECT_FALSE(json["failures"].empty());
 }
 
+// One photon that meets nothing leaves the object dark: that must not pass for a result.
+TEST_F(CommandLine, HardlyAnyPhotonsAreNotTrusted) {
+  const ProgramResult result = run("render scene.yaml -o a.exr --set solver.photons=1");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("too few"), std::string::npos) << result.err;
+}
+
 TEST_F(CommandLine, SummaryHoldsWhatWasMeasured) {
   run("render scene.yaml -o a.exr --json a.json");
   const auto json = nlohmann::json::parse(read_file(scratch_.path("a.json")));
