@@ -1,5 +1,5 @@
-// A box of cubic cells, and the corner numbering that every file here shares: corner c of a cell has
-// the offsets (c & 1, c >> 1 & 1, c >> 2).
+// A box of cubic cells, and the corner numbering that every file here shares: corner c of a cell
+// has the offsets (c & 1, c >> 1 & 1, c >> 2).
 #pragma once
 
 #include <array>

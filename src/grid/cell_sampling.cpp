@@ -34,9 +34,8 @@ int place_bit(int axis, int layer, int line) {
 }
 
 bool CellSample::split() const {
-  return parts.size() > 1 || std::any_of(lines.begin(), lines.end(), [](const auto& line) {
-           return line.size() > 1;
-         });
+  return parts.size() > 1 ||
+         std::any_of(lines.begin(), lines.end(), [](const auto& line) { return line.size() > 1; });
 }
 
 CellSample sample_cell(const AxisLines& all_lines, const std::array<int, 3>& cell,
@@ -64,8 +63,7 @@ CellSample sample_cell(const AxisLines& all_lines, const std::array<int, 3>& cel
           if (axis == 0) sample.inside |= bit;
           if (s + 1 < lines_per_cell && holds(s + 1)) link_up[a] |= bit;
         }
-        if (holds(-1) && holds(0))
-          sample.links[2 * a] |= static_cast<std::uint16_t>(1U << line);
+        if (holds(-1) && holds(0)) sample.links[2 * a] |= static_cast<std::uint16_t>(1U << line);
         if (holds(lines_per_cell - 1) && holds(lines_per_cell))
           sample.links[2 * a + 1] |= static_cast<std::uint16_t>(1U << line);
         if (axis == sample.axis && std::min(end, 1.0) > std::max(begin, 0.0))
@@ -75,8 +73,7 @@ CellSample sample_cell(const AxisLines& all_lines, const std::array<int, 3>& cel
     }
   }
   // The three axes' lines may disagree about a place that lies on the surface to rounding.
-  for (std::size_t a = 0; a < 3; ++a)
-    link_up[a] &= sample.inside & (sample.inside >> stride[a]);
+  for (std::size_t a = 0; a < 3; ++a) link_up[a] &= sample.inside & (sample.inside >> stride[a]);
   for (Places rest = sample.inside; rest != 0;) {
     sample.parts.push_back(connected_places(rest & (~rest + 1), link_up));
     rest &= ~sample.parts.back();

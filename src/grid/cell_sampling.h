@@ -18,9 +18,9 @@ struct LinePart {
 };
 
 struct CellSample {
-  Places inside = 0;                    // places that lie inside the object
+  Places inside = 0;                     // places that lie inside the object
   std::array<std::uint16_t, 6> links{};  // see CutPiece
-  std::vector<Places> parts;            // connected sets of places within the cell
+  std::vector<Places> parts;             // connected sets of places within the cell
   // The 16 lines along `axis`, the one that the surface faces most: along it the volume is exact
   // where each line meets the surface, whatever the depth.
   int axis = 0;
@@ -33,8 +33,8 @@ struct CellSample {
 // facing: sum of area |n| over the surface in the cell.
 CellSample sample_cell(const AxisLines& lines, const std::array<int, 3>& cell, const Vec3& facing);
 
-// Quadrature over one line part: adds it to the moments of the cell with `shift` subtracted from the
-// local coordinates (for a part that is counted with the next cell). Sums over a whole cell are
+// Quadrature over one line part: adds it to the moments of the cell with `shift` subtracted from
+// the local coordinates (for a part that is counted with the next cell). Sums over a whole cell are
 // exact for its moments.
 void add_line_part(Moments& moments, int axis, int line, const LinePart& part, const Vec3& shift);
 

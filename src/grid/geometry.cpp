@@ -1,7 +1,5 @@
 #include "grid/geometry.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +8,6 @@
 namespace knotlight {
 namespace {
 
-// In cells. Far enough under the surface to be on the right side of a gap, and near enough to be in
-// the same part.
-constexpr double step_inside = 0.2;
 // Shape functions may be carried this far out of their cell: the centre of a cell beside it.
 constexpr double farthest_outside = 0.5;
 
@@ -23,9 +18,9 @@ GridGeometry::GridGeometry(const Shape& shape, double h, const Workers& workers)
 }
 
 std::int32_t GridGeometry::piece_at(std::int32_t cell, const Vec3& local) const {
-  const auto split = std::lower_bound(
-      splits_.begin(), splits_.end(), cell,
-      [](const auto& entry, std::int32_t wanted) { return entry.first < wanted; });
+  const auto split =
+      std::lower_bound(splits_.begin(), splits_.end(), cell,
+                       [](const auto& entry, std::int32_t wanted) { return entry.first < wanted; });
   const std::int32_t first = finest().first_piece[static_cast<std::size_t>(cell)];
   if (split == splits_.end() || split->first != cell) return first;
   // The nearest of the lines that have a part inside, and on it the nearest part.
@@ -85,9 +80,8 @@ Place GridGeometry::locate_in_cells(const Vec3& x, const Vec3& within) const {
   Place place;
   place.piece = piece_at(cell, within - Vec3(p[0], p[1], p[2]));
   const auto q = level.grid.position(level.pieces[static_cast<std::size_t>(place.piece)].cell);
-  place.local = (x - Vec3(q[0], q[1], q[2]))
-                    .cwiseMax(-farthest_outside)
-                    .cwiseMin(1.0 + farthest_outside);
+  place.local =
+      (x - Vec3(q[0], q[1], q[2])).cwiseMax(-farthest_outside).cwiseMin(1.0 + farthest_outside);
   return place;
 }
 

@@ -17,18 +17,22 @@ namespace knotlight {
 
 // A point seen by the grid.
 struct Place {
-  std::int32_t piece = -1;     // -1: not near the object
-  Vec3 local = Vec3::Zero();   // in the piece's cell; a little outside 0..1 if the point's own cell
-                               // holds nothing of the object
+  std::int32_t piece = -1;    // -1: not near the object
+  Vec3 local = Vec3::Zero();  // in the piece's cell; a little outside 0..1 if the point's own cell
+                              // holds nothing of the object
 };
 
+// How far under the surface, in cells, a surface point is looked up: far enough to be on the right
+// side of a gap, near enough to be in the same part.
+inline constexpr double step_inside = 0.2;
+
 struct GridQuality {
-  std::size_t cells = 0;      // with a part of the object
-  std::size_t cut_cells = 0;  // with surface
-  double volume_error = 0.0;  // of the sum over cells, relative
-  double area_error = 0.0;    // surface that found no cell, relative
-  double thin_share = 0.0;    // of the surface: no whole cell among the 27 around it
-  std::size_t unsure_lines = 0;  // see ScanLines
+  std::size_t cells = 0;             // with a part of the object
+  std::size_t cut_cells = 0;         // with surface
+  double volume_error = 0.0;         // of the sum over cells, relative
+  double area_error = 0.0;           // surface that found no cell, relative
+  double thin_share = 0.0;           // of the surface: no whole cell among the 27 around it
+  std::size_t unsure_lines = 0;      // see ScanLines
   double mean_chord_in_cells = 0.0;  // 4 V / (S h)
 };
 

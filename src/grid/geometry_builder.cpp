@@ -12,7 +12,7 @@
 namespace knotlight {
 namespace {
 
-constexpr double most_cells = 1 << 30;  // 32-bit numbers of nodes
+constexpr double most_cells = 1 << 30;                          // 32-bit numbers of nodes
 constexpr std::int32_t outside = -1, whole = -2, surface = -3;  // cells before pieces are numbered
 constexpr std::size_t cells_per_chunk = 1024;
 // A cell with less of the object is left out, and its surface goes with the cell beside it: below
@@ -78,10 +78,11 @@ void GeometryBuilder::find_surface_cells(const TriangleMesh& mesh) {
         static_cast<std::size_t>(level().grid.index(piece.cell[0], piece.cell[1], piece.cell[2]));
     if (state[cell] == outside) {
       state[cell] = surface - static_cast<std::int32_t>(surface_cells_.size());
-      surface_cells_.push_back({static_cast<std::int32_t>(cell), Vec3::Zero()});
+      surface_cells_.push_back({static_cast<std::int32_t>(cell), Vec3::Zero(), 0.0});
     }
-    surface_cells_[static_cast<std::size_t>(surface - state[cell])].facing +=
-        piece.area * piece.normal.cwiseAbs();
+    SurfaceCell& found = surface_cells_[static_cast<std::size_t>(surface - state[cell])];
+    found.facing += piece.area * piece.normal.cwiseAbs();
+    found.area += piece.area;
   });
   for (const SurfaceCell& s : surface_cells_) state[static_cast<std::size_t>(s.cell)] = surface;
   std::sort(surface_cells_.begin(), surface_cells_.end(),
@@ -108,13 +109,12 @@ void GeometryBuilder::find_whole_cells(const ScanLines& x_lines) {
 
 void GeometryBuilder::sample_surface_cells(const AxisLines& lines) {
   samples_.resize(surface_cells_.size());
-  workers_.for_chunks(samples_.size(), cells_per_chunk,
-                      [&](std::size_t, std::size_t begin, std::size_t end) {
-                        for (std::size_t s = begin; s < end; ++s)
-                          samples_[s] = sample_cell(
-                              lines, level().grid.position(surface_cells_[s].cell),
-                              surface_cells_[s].facing);
-                      });
+  workers_.for_chunks(
+      samples_.size(), cells_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t s = begin; s < end; ++s)
+          samples_[s] = sample_cell(lines, level().grid.position(surface_cells_[s].cell),
+                                    surface_cells_[s].facing);
+      });
 }
 
 // Pieces in the order of their cells; volumes of cells that no gap divides.
@@ -145,8 +145,8 @@ void GeometryBuilder::make_pieces() {
       cut.inside = places;
       cut.links = sample.links;
       if (!sample.split()) cut.volume = seen;
-      level().pieces.push_back({static_cast<std::int32_t>(cell),
-                                static_cast<std::int32_t>(level().cuts.size()), {}});
+      level().pieces.push_back(
+          {static_cast<std::int32_t>(cell), static_cast<std::int32_t>(level().cuts.size()), {}});
       level().cuts.push_back(cut);
     }
     state[cell] = first;
@@ -217,24 +217,11 @@ void GeometryBuilder::add_split_volumes() {
 
 void GeometryBuilder::add_surface(const TriangleMesh& mesh) {
   const Level& fine = level();
-  const auto near_whole_cell = [&](const std::array<int, 3>& c) {
-    for (int k = c[2] - 1; k <= c[2] + 1; ++k)
-      for (int j = c[1] - 1; j <= c[1] + 1; ++j)
-        for (int i = c[0] - 1; i <= c[0] + 1; ++i) {
-          const auto [first, last] = fine.pieces_of(i, j, k);
-          if (last > first && (fine.whole(first) ||
-                               total(fine.cut(first).volume) > 1.0 - least_volume))
-            return true;
-        }
-    return false;
-  };
   for_each_surface_piece(mesh, [&](const SurfacePiece& piece) {
     const Vec3 centroid = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3.0;
-    constexpr double nudge = 0.2;  // as in GridGeometry::locate
     const Place place = geometry_.locate_in_cells(
         Vec3(piece.cell[0] + 0.5, piece.cell[1] + 0.5, piece.cell[2] + 0.5),
-        centroid - nudge * piece.normal);
-    if (!near_whole_cell(piece.cell)) area_thin_ += piece.area;
+        centroid - step_inside * piece.normal);
     if (place.piece < 0) return;
     area_found_ += piece.area;
     const auto p = fine.grid.position(fine.pieces[static_cast<std::size_t>(place.piece)].cell);
@@ -242,6 +229,30 @@ void GeometryBuilder::add_surface(const TriangleMesh& mesh) {
     for (const SurfaceNode& node : quadrature(piece))
       add_point(cut.surface, node.position - Vec3(p[0], p[1], p[2]), node.weight);
   });
+}
+
+// Surface with no whole cell among the 27 around it.
+double GeometryBuilder::thin_area() const {
+  const Level& fine = geometry_.finest();
+  std::vector<bool> filled(fine.pieces.size());
+  for (std::size_t p = 0; p < filled.size(); ++p) {
+    const std::int32_t cut = fine.pieces[p].cut;
+    filled[p] =
+        cut < 0 || total(fine.cuts[static_cast<std::size_t>(cut)].volume) > 1.0 - least_volume;
+  }
+  double area = 0.0;
+  for (const SurfaceCell& s : surface_cells_) {
+    const auto c = fine.grid.position(s.cell);
+    bool thin = true;
+    for (int k = c[2] - 1; k <= c[2] + 1; ++k)
+      for (int j = c[1] - 1; j <= c[1] + 1; ++j)
+        for (int i = c[0] - 1; i <= c[0] + 1; ++i) {
+          const auto [first, last] = fine.pieces_of(i, j, k);
+          thin = thin && (last == first || !filled[static_cast<std::size_t>(first)]);
+        }
+    if (thin) area += s.area;
+  }
+  return area;
 }
 
 // A piece that is linked to nothing is a corner of the object that its neighbours' samples do not
@@ -270,15 +281,14 @@ void GeometryBuilder::loosen_lone_pieces() {
 void GeometryBuilder::judge(double true_volume, double true_area) {
   GridQuality& q = geometry_.quality_;
   const double h = level().grid.h;
-  const std::size_t whole_cells =
-      level().pieces.size() - level().cuts.size();
+  const std::size_t whole_cells = level().pieces.size() - level().cuts.size();
   double sum = static_cast<double>(whole_cells);
   for (const CutPiece& cut : level().cuts) sum += total(cut.volume);
   q.cells = level().pieces.size();
   q.cut_cells = level().cuts.size();
   q.volume_error = std::abs(sum * h * h * h / true_volume - 1.0);
   q.area_error = std::abs(area_found_ * h * h / true_area - 1.0);
-  q.thin_share = area_thin_ * h * h / true_area;
+  q.thin_share = thin_area() * h * h / true_area;
   q.mean_chord_in_cells = 4.0 * true_volume / (true_area * h);
   const auto& n = level().grid.n;
   const double lines = static_cast<double>(lines_per_cell * lines_per_cell) *
@@ -292,9 +302,9 @@ void GeometryBuilder::judge(double true_volume, double true_area) {
   else if (q.area_error > area_allowed)
     geometry_.unresolved_ = fmt::format("the cells miss {:.2g} of the surface", q.area_error);
   else if (static_cast<double>(q.unsure_lines) > unsure_allowed * lines)
-    geometry_.unresolved_ = fmt::format(
-        "{} of {:.0f} scan lines do not leave the mesh as often as they enter it", q.unsure_lines,
-        lines);
+    geometry_.unresolved_ =
+        fmt::format("{} of {:.0f} scan lines do not leave the mesh as often as they enter it",
+                    q.unsure_lines, lines);
 }
 
 }  // namespace knotlight

@@ -18,6 +18,7 @@ class GeometryBuilder {
   struct SurfaceCell {
     std::int32_t cell;
     Vec3 facing;  // sum of area |n|
+    double area;  // in faces of a cell
   };
 
   Level& level() { return geometry_.levels_.front(); }
@@ -27,6 +28,7 @@ class GeometryBuilder {
   void make_pieces();
   void add_split_volumes();
   void add_surface(const TriangleMesh& mesh);
+  double thin_area() const;
   void loosen_lone_pieces();
   void judge(double true_volume, double true_area);
 
@@ -39,7 +41,7 @@ class GeometryBuilder {
   const Workers& workers_;
   std::vector<SurfaceCell> surface_cells_;  // by cell
   std::vector<CellSample> samples_;         // one per surface cell
-  double area_found_ = 0.0, area_thin_ = 0.0;  // in faces of a cell
+  double area_found_ = 0.0;                 // in faces of a cell
 };
 
 }  // namespace knotlight

@@ -125,22 +125,27 @@ Level coarser(const Level& fine) {
       for (int i = 0; i < n[0]; ++i) {
         int children = 0, whole_children = 0;
         CutPiece cut;
-        for (int c = 0; c < 8; ++c) {
-          const auto o = corner_offset(c);
-          const auto [first, last] = fine.pieces_of(2 * i + o[0], 2 * j + o[1], 2 * k + o[2]);
-          for (std::int32_t p = first; p < last; ++p) {
-            ++children;
-            whole_children += fine.whole(p) ? 1 : 0;
-            add_to_parent(cut.volume, fine.whole(p) ? whole : fine.cut(p).volume, c, 1.0 / 8.0);
-            if (!fine.whole(p)) add_to_parent(cut.surface, fine.cut(p).surface, c, 1.0 / 4.0);
+        const auto for_each_child = [&](const auto& visit) {
+          for (int c = 0; c < 8; ++c) {
+            const auto o = corner_offset(c);
+            const auto [first, last] = fine.pieces_of(2 * i + o[0], 2 * j + o[1], 2 * k + o[2]);
+            for (std::int32_t p = first; p < last; ++p) visit(c, p);
           }
-        }
+        };
+        for_each_child([&](int, std::int32_t p) {
+          ++children;
+          whole_children += fine.whole(p) ? 1 : 0;
+        });
         if (children == 0) continue;
         Piece piece;
         piece.cell = coarse.grid.index(i, j, k);
         const auto index = static_cast<std::int32_t>(coarse.pieces.size());
         if (whole_children != 8) {
           cut.piece = index;
+          for_each_child([&](int c, std::int32_t p) {
+            add_to_parent(cut.volume, fine.whole(p) ? whole : fine.cut(p).volume, c, 1.0 / 8.0);
+            if (!fine.whole(p)) add_to_parent(cut.surface, fine.cut(p).surface, c, 1.0 / 4.0);
+          });
           piece.cut = static_cast<std::int32_t>(coarse.cuts.size());
           coarse.cuts.push_back(cut);
         }

@@ -17,8 +17,8 @@ inline constexpr Places all_places = ~Places{0};
 
 struct Piece {
   std::int32_t cell = -1;
-  std::int32_t cut = -1;               // index of its CutPiece; -1: a whole cell
-  std::array<std::int32_t, 8> dof{};   // unknown at each corner
+  std::int32_t cut = -1;              // index of its CutPiece; -1: a whole cell
+  std::array<std::int32_t, 8> dof{};  // unknown at each corner
 };
 
 // What a piece needs beyond a whole cell.

@@ -51,8 +51,7 @@ Moments full_cell_moments() {
 double total(const Moments& moments) {
   constexpr Triple one{1.0, 2.0, 1.0};
   double sum = 0.0;
-  for (std::size_t i = 0; i < 27; ++i)
-    sum += one[i % 3] * one[i / 3 % 3] * one[i / 9] * moments[i];
+  for (std::size_t i = 0; i < 27; ++i) sum += one[i % 3] * one[i / 3 % 3] * one[i / 9] * moments[i];
   return sum;
 }
 
@@ -103,8 +102,8 @@ ElementVector shape_functions(const Vec3& x) {
   ElementVector n;
   for (int c = 0; c < 8; ++c) {
     const auto o = corner_offset(c);
-    n[c] = (o[0] ? x.x() : 1.0 - x.x()) * (o[1] ? x.y() : 1.0 - x.y()) *
-           (o[2] ? x.z() : 1.0 - x.z());
+    n[c] =
+        (o[0] ? x.x() : 1.0 - x.x()) * (o[1] ? x.y() : 1.0 - x.y()) * (o[2] ? x.z() : 1.0 - x.z());
   }
   return n;
 }

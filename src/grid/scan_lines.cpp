@@ -45,8 +45,8 @@ class Footprint {
             std::min(count, static_cast<int>(std::floor(hi * lines_per_cell - 0.5)) + 2)};
   }
 
-  // Twice the signed area of (edge, q); returns its sign. The two triangles of an edge must agree on
-  // the side of q to the last bit, or a line could slip between them: the value is always taken
+  // Twice the signed area of (edge, q); returns its sign. The two triangles of an edge must agree
+  // on the side of q to the last bit, or a line could slip between them: the value is always taken
   // from the corner of lower number to that of higher number.
   bool edge_value(std::size_t v, const Eigen::Vector2d& q, double& value) const {
     std::size_t from = v, to = (v + 1) % 3;
@@ -76,8 +76,7 @@ class Footprint {
 }  // namespace
 
 ScanLines::ScanLines(const TriangleMesh& mesh, const std::array<int, 3>& n, int axis)
-    : axis_(axis),
-      columns_(lines_per_cell * n[static_cast<std::size_t>((axis + 1) % 3)]) {
+    : axis_(axis), columns_(lines_per_cell * n[static_cast<std::size_t>((axis + 1) % 3)]) {
   const int rows = lines_per_cell * n[static_cast<std::size_t>((axis + 2) % 3)];
   const std::size_t count = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows);
   const auto at = [this](int i, int j) {

@@ -34,7 +34,8 @@ TriangleMesh sphere_mesh(double radius, double edge) {
   };
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
-      if (r + 1 < rows) mesh.triangles.push_back({vertex(r, c), vertex(r + 1, c), vertex(r + 1, c + 1)});
+      if (r + 1 < rows)
+        mesh.triangles.push_back({vertex(r, c), vertex(r + 1, c), vertex(r + 1, c + 1)});
       if (r > 0) mesh.triangles.push_back({vertex(r, c), vertex(r + 1, c + 1), vertex(r, c + 1)});
     }
   const double scale = std::cbrt(4.0 / 3.0 * pi * radius * radius * radius / signed_volume(mesh));

@@ -36,12 +36,11 @@ void slice(const Polygon& polygon, int axis, const Vec3& normal,
   if (axis == 3) {
     for (std::size_t v = 1; v + 1 < polygon.size(); ++v) {
       SurfacePiece piece{{}, {polygon[0], polygon[v], polygon[v + 1]}, normal, 0.0};
-      piece.area = 0.5 * (piece.corner[1] - piece.corner[0])
-                             .cross(piece.corner[2] - piece.corner[0])
-                             .norm();
+      piece.area =
+          0.5 * (piece.corner[1] - piece.corner[0]).cross(piece.corner[2] - piece.corner[0]).norm();
       if (!(piece.area > 0.0)) continue;
-      const Vec3 below = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3.0 -
-                         step_inside * normal;
+      const Vec3 below =
+          (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3.0 - step_inside * normal;
       for (std::size_t a = 0; a < 3; ++a)
         piece.cell[a] = static_cast<int>(std::floor(below[static_cast<int>(a)]));
       visit(piece);
@@ -83,10 +82,10 @@ std::array<SurfaceNode, 6> quadrature(const SurfacePiece& piece) {
   std::array<SurfaceNode, 6> nodes;
   for (std::size_t orbit = 0; orbit < 2; ++orbit)
     for (std::size_t v = 0; v < 3; ++v)
-      nodes[3 * orbit + v] = {corner[orbit] * piece.corner[v] +
-                                  0.5 * (1.0 - corner[orbit]) *
-                                      (piece.corner[(v + 1) % 3] + piece.corner[(v + 2) % 3]),
-                              weight[orbit] * piece.area};
+      nodes[3 * orbit + v] = {
+          corner[orbit] * piece.corner[v] +
+              0.5 * (1.0 - corner[orbit]) * (piece.corner[(v + 1) % 3] + piece.corner[(v + 2) % 3]),
+          weight[orbit] * piece.area};
   return nodes;
 }
 
