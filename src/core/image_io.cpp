@@ -37,10 +37,19 @@ double srgb_encode(double x) {
   return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
 }
 
-// Loads the module once; it lies beside the program, where the program's run path finds it.
+// The module lies beside the program, or, for test programs, up to two folders above it.
+std::string module_path() {
+  std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  for (int level = 0; level < 3; ++level, folder = folder.parent_path())
+    if (std::filesystem::exists(folder / image_codec_library))
+      return (folder / image_codec_library).string();
+  throw std::runtime_error(fmt::format("{} is not beside the program", image_codec_library));
+}
+
+// Loads the module once.
 const ImageCodec& codec() {
   static const ImageCodec& loaded = [&]() -> const ImageCodec& {
-    void* library = dlopen(image_codec_library, RTLD_NOW);
+    void* library = dlopen(module_path().c_str(), RTLD_NOW);
     void* symbol = library != nullptr ? dlsym(library, image_codec_symbol) : nullptr;
     if (symbol == nullptr)
       throw std::runtime_error(fmt::format("cannot load the picture module: {}", dlerror()));

@@ -10,10 +10,13 @@
 #include "core/medium.h"
 #include "core/parallel.h"
 #include "pipeline/photon_halves.h"
+#include "pipeline/sample_points.h"
 #include "scene/scene.h"
 #include "trace/ray_caster.h"
 
 namespace knotlight {
+
+struct ObjectGrids;  // solve_grid.h
 
 struct ChannelProblem {
   const Shape& shape;
@@ -21,6 +24,7 @@ struct ChannelProblem {
   const DiffusionCoefficients& coefficients;
   const SolverSettings& settings;
   const PhotonHalves& photons;
+  const ObjectGrids* grids;  // shared by the object's channels; null unless the method is grid
   const RayCaster& caster;
   std::uint32_t object;  // index in the caster
   std::uint64_t seed;
@@ -39,6 +43,11 @@ struct ChannelSolution {
   std::vector<std::pair<std::string, double>> figures;
   std::vector<std::string> failures;  // what this method could not do, one sentence each
 };
+
+// Points at which solutions are compared: boundary_checks strata of the surface, random in each.
+SurfaceSamples boundary_check_points(const ChannelProblem& problem);
+
+double root_mean_square(const Eigen::VectorXd& v);
 
 // 0/0 = 0: an object that no light reaches is dark, and that is exact.
 inline double relative(double part, double whole) {

@@ -6,6 +6,7 @@
 
 #include "photon/photon_tracer.h"
 #include "pipeline/scene_setup.h"
+#include "pipeline/solve_object.h"
 
 namespace knotlight {
 namespace {
@@ -17,13 +18,14 @@ constexpr std::size_t most_audit_photons = 200'000;
 }  // namespace
 
 std::string planned_method(const Scene& scene) {
-  const char* why = scene.solver.method == Method::automatic
-                        ? "the only method of this version, so auto takes it"
-                        : "asked for";
-  return fmt::format(
-      "bkm_thesis ({}): dual reciprocity with Gaussians and the non-singular solution, both by "
-      "truncated SVD; source photon_map",
-      why);
+  if (chosen_method(scene.solver) == Method::grid)
+    return fmt::format("grid: photons counted into cells, finite elements cut off at the surface{}",
+                       scene.solver.method == Method::automatic
+                           ? " (auto: the boundary knot method of this version is the thesis's, "
+                             "which misses the tolerance on most scenes)"
+                           : "");
+  return "bkm_thesis: dual reciprocity with Gaussians and the non-singular solution, both by "
+         "truncated SVD";
 }
 
 Report inspect_scene(const std::string& path, bool audit, RunContext& run, Scene& scene_out) {

@@ -15,7 +15,6 @@ namespace knotlight {
 namespace {
 
 constexpr std::size_t default_knots = 484;  // the thesis's usual number [V09 fig. 7.2]
-constexpr std::size_t boundary_checks = 512;
 constexpr std::size_t layer_checks = 1024;
 constexpr std::size_t volume_checks = 1024;
 // Of the interior check points, some lie at random depths down to this many transport mean free
@@ -52,11 +51,9 @@ RightHandSides right_hand_sides(const Places& places, const ChannelProblem& p) {
 // Points that are not knots: on the surface, in the layer below it, and in the whole volume. Those
 // of the layer that would lie outside are left out.
 Places check_places(const ChannelProblem& p) {
-  const auto on_surface = [&](std::size_t count, std::uint64_t seed) {
-    return columns(stratified_surface_points(p.shape, count, true, seed, Stream::check_points));
-  };
-  Places places{on_surface(boundary_checks, p.seed), {}};
-  const SurfaceSamples roots = on_surface(layer_checks, p.seed + 1);
+  Places places{boundary_check_points(p), {}};
+  const SurfaceSamples roots = columns(
+      stratified_surface_points(p.shape, layer_checks, true, p.seed + 1, Stream::check_points));
   const double depth = check_depth / p.medium.sigma_tr();
   Rng rng(p.seed, Stream::check_points, p.object);
   Points points(3, roots.positions.cols() + static_cast<Eigen::Index>(volume_checks));
@@ -69,10 +66,6 @@ Places check_places(const ChannelProblem& p) {
       volume_points(p.shape, p.caster, p.object, volume_checks, p.seed + 1);
   places.interior = points.leftCols(count + static_cast<Eigen::Index>(volume_checks));
   return places;
-}
-
-double root_mean_square(const Eigen::VectorXd& v) {
-  return std::sqrt(v.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, v.size())));
 }
 
 double largest(const Eigen::VectorXd& v) {

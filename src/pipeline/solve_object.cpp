@@ -8,6 +8,7 @@
 
 #include "pipeline/sample_points.h"
 #include "pipeline/solve_bkm_thesis.h"
+#include "pipeline/solve_grid.h"
 
 namespace knotlight {
 namespace {
@@ -59,11 +60,12 @@ void judge(const ChannelReport& r, double tolerance, std::vector<std::string>& f
 }  // namespace
 
 Method chosen_method(const SolverSettings& settings) {
-  return settings.method == Method::automatic ? Method::bkm_thesis : settings.method;
+  return settings.method == Method::automatic ? Method::grid : settings.method;
 }
 
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
-                            int channel, std::vector<VolumePhoton> photons, std::uint64_t seed,
+                            int channel, const ObjectGrids* grids,
+                            std::vector<VolumePhoton> photons, std::uint64_t seed,
                             const Workers& workers) {
   const Medium medium = scene.objects[object].translucent()->medium(channel);
   const DiffusionCoefficients coefficients = diffusion_coefficients(medium, scene.solver.boundary);
@@ -73,6 +75,7 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
                                coefficients,
                                scene.solver,
                                result.photons,
+                               grids,
                                caster,
                                object,
                                seed,
@@ -83,7 +86,8 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
   report.photons = result.photons.size();
   report.photon_power = result.photons.total_power();
 
-  ChannelSolution solution = solve_by_bkm_thesis(problem);
+  ChannelSolution solution =
+      grids != nullptr ? solve_by_grid(problem) : solve_by_bkm_thesis(problem);
   result.solved = solution.solved;
   result.U_d = solution.solved ? std::move(solution.U_d) : [](const Points& x) -> Eigen::VectorXd {
     return Eigen::VectorXd::Constant(x.cols(), std::numeric_limits<double>::quiet_NaN());

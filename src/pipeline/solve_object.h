@@ -24,8 +24,10 @@ struct SolvedChannel {
 // The method that `solver.method: auto` stands for.
 Method chosen_method(const SolverSettings& settings);
 
+// grids: of this object if the chosen method is grid, else null.
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
-                            int channel, std::vector<VolumePhoton> photons, std::uint64_t seed,
+                            int channel, const ObjectGrids* grids,
+                            std::vector<VolumePhoton> photons, std::uint64_t seed,
                             const Workers& workers);
 
 }  // namespace knotlight

@@ -6,6 +6,7 @@
 
 #include "photon/photon_tracer.h"
 #include "pipeline/info.h"
+#include "pipeline/solve_grid.h"
 
 namespace knotlight {
 
@@ -25,6 +26,16 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
           trace_photons(scene, *prepared.caster, c, options, run.workers, stage).photons);
   }
 
+  std::vector<std::optional<ObjectGrids>> grids(prepared.translucent.size());
+  if (chosen_method(scene.solver) == Method::grid) {
+    Stage stage(run.stages, "grid", grids.size());
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+      grids[i] = make_grids(scene.objects[prepared.translucent[i]], scene.channels, scene.solver,
+                            run.workers);
+      stage.advance();
+    }
+  }
+
   // Every (object, channel) is a system of its own; they run side by side, each on one thread,
   // since the dense solver's bits must not depend on the number of threads.
   const std::size_t systems = prepared.translucent.size() * channels;
@@ -34,8 +45,10 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
     run.workers.for_chunks(systems, 1, [&](std::size_t system, std::size_t, std::size_t) {
       const std::uint32_t object = prepared.translucent[system / channels];
       const std::size_t channel = system % channels;
+      const auto& object_grids = grids[system / channels];
       solved[system] =
           solve_channel(scene, *prepared.caster, object, static_cast<int>(channel),
+                        object_grids ? &*object_grids : nullptr,
                         std::move(photons[channel][object]), run.options.seed, Workers(1));
       stage.advance();
     });

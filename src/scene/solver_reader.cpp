@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "scene/scene_parts.h"
 
@@ -18,7 +20,7 @@ constexpr std::array<Choice<Method>, 6> methods{{
     {"bkm", Method::bkm, false},
     {"mfs", Method::mfs, false},
     {"lbkm", Method::lbkm, false},
-    {"grid", Method::grid, false},
+    {"grid", Method::grid},
 }};
 constexpr std::array<Choice<Boundary>, 2> boundaries{{
     {"milne", Boundary::milne},
@@ -43,6 +45,15 @@ constexpr std::size_t max_knots = 1'000'000;         // beyond any solver's reac
 constexpr std::size_t min_knots = 4;                 // four points span a volume
 constexpr std::size_t max_estimate_photons = 1'000'000;
 
+// Noise falls as n^-1/2; on the shipped scenes this many leave about the tolerance of noise
+// (docs/results/speed.md).
+std::size_t default_photons(double tolerance) {
+  constexpr double photons_at_one_per_cent = 3e6;
+  constexpr double fewest = 3e5, most = 3e7;
+  const double wanted = photons_at_one_per_cent * std::pow(0.01 / tolerance, 2);
+  return static_cast<std::size_t>(std::clamp(wanted, fewest, most));
+}
+
 }  // namespace
 
 SolverSettings read_solver(const YamlNode& node) {
@@ -56,6 +67,7 @@ SolverSettings read_solver(const YamlNode& node) {
   if (const auto* key = node.find("method")) solver.method = read_choice(*key, methods);
   if (const auto* key = node.find("boundary")) solver.boundary = read_choice(*key, boundaries);
   if (const auto* key = node.find("exitance")) solver.exitance = read_choice(*key, exitances);
+  solver.photons = default_photons(solver.tolerance);
   if (const auto* key = node.find("photons")) solver.photons = read_count(*key, 1, max_photons);
   if (const auto* key = node.find("knots")) {
     solver.knots = read_count(*key, min_knots, max_knots);

@@ -1,10 +1,12 @@
 // The error of `method: bkm_thesis` against exact values, as a Markdown table: the whole pipeline
 // on the validation scenes. Not a timing; it lies here because it takes a minute.
 //
-//   baseline_error_bench > table.md
+//   method_error_bench bkm_thesis > table.md
+//   method_error_bench grid > table.md
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -36,7 +38,6 @@ const SphereCase sphere_cases[] = {
      {0.0006950245, 0.0009577059, 0.001456252, 0.002682914, 0.01305018, 0.04613824, 0.07692854,
       0.1050077, 0.1307355}},
 };
-constexpr std::size_t knot_counts[] = {100, 484, 961};
 
 struct Outcome {
   double error, largest;  // relative L2, and max error over max U_d
@@ -53,15 +54,36 @@ Outcome compare(const std::vector<double>& values, const std::vector<double>& ex
   return {std::sqrt(difference2 / exact2), worst / top};
 }
 
-SolvedChannel solve(const std::string& scene, const std::vector<std::string>& overrides) {
+struct Timed {
+  SolvedChannel channel;
+  double seconds;
+};
+
+Timed solve(const std::string& scene, const std::vector<std::string>& overrides) {
   RunOptions options;
   options.overrides = overrides;
   options.quiet = true;
   RunContext run(options, false);
+  const auto start = std::chrono::steady_clock::now();
   SolvedScene solved =
       solve_scene(prepare_scene(KNOTLIGHT_ROOT "/scenes/validation/" + scene, run), run);
-  return std::move(solved.objects[0][0]);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  return {std::move(solved.objects[0][0]), seconds.count()};
 }
+
+// What identifies a run of a method: the settings that are swept, and the figures worth a column.
+struct Sweep {
+  std::string method, setting;
+  std::vector<double> values;
+  std::vector<std::string> figures;
+};
+const Sweep sweeps[] = {
+    {"bkm_thesis", "solver.knots", {100, 484, 961}, {"particular_rank", "homogeneous_rank"}},
+    {"grid",
+     "solver.tolerance",
+     {0.04, 0.02, 0.01},
+     {"cells", "cell_size_in_transport_mean_free_paths"}},
+};
 
 double figure(const ChannelReport& report, const std::string& name) {
   for (const auto& [key, value] : report.figures)
@@ -69,20 +91,24 @@ double figure(const ChannelReport& report, const std::string& name) {
   throw std::runtime_error("no figure " + name);
 }
 
-void print_row(const std::string& name, std::size_t knots, const Outcome& outcome,
-               const ChannelReport& report) {
-  fmt::print("| {} | {} | {} | {} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} |\n", name, knots,
-             figure(report, "particular_rank"), figure(report, "homogeneous_rank"), outcome.error,
-             outcome.largest, report.numerical_error, report.noise, report.energy_imbalance);
+void print_row(const std::string& name, const Sweep& sweep, double setting, const Outcome& outcome,
+               const Timed& solved) {
+  const ChannelReport& report = solved.channel.report;
+  fmt::print(
+      "| {} | {} | {:.3g} | {:.3g} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.2f} |\n", name,
+      setting, figure(report, sweep.figures[0]), figure(report, sweep.figures[1]), outcome.error,
+      outcome.largest, report.numerical_error, report.noise, report.energy_imbalance,
+      solved.seconds);
 }
 
-void sphere_rows() {
+void sphere_rows(const Sweep& sweep) {
   for (const SphereCase& c : sphere_cases)
-    for (const std::size_t knots : knot_counts) {
-      const SolvedChannel solved = solve(
-          "sphere.yaml", {fmt::format("materials.medium.sigma_a={}", c.sigma_t * (1 - c.albedo)),
-                          fmt::format("materials.medium.sigma_s={}", c.sigma_t * c.albedo),
-                          fmt::format("solver.knots={}", knots)});
+    for (const double setting : sweep.values) {
+      const Timed solved =
+          solve("sphere.yaml",
+                {fmt::format("materials.medium.sigma_a={}", c.sigma_t * (1 - c.albedo)),
+                 fmt::format("materials.medium.sigma_s={}", c.sigma_t * c.albedo),
+                 "solver.method=" + sweep.method, fmt::format("{}={}", sweep.setting, setting)});
       // Uniform in z is uniform in area; the mean over 8 azimuths stands for the axisymmetric
       // field.
       std::vector<double> values, exact;
@@ -90,42 +116,50 @@ void sphere_rows() {
         for (int j = 0; j < 8; ++j) {
           const double z = -1.0 + 0.25 * static_cast<double>(i);
           const double rho = std::sqrt(1.0 - z * z);
-          values.push_back(solved.U_d_at(
+          values.push_back(solved.channel.U_d_at(
               Vec3(rho * std::cos(0.3 + 0.7854 * j), rho * std::sin(0.3 + 0.7854 * j), z)));
           exact.push_back(c.U_d[i]);
         }
       print_row(fmt::format("sphere, sigma_t R = {}, albedo {}", c.sigma_t, c.albedo), knots,
-                compare(values, exact), solved.report);
+                compare(values, exact), solved);
     }
 }
 
-void slab_rows() {
+void slab_rows(const Sweep& sweep) {
   for (const double b : {2.0, 10.0})
-    for (const std::size_t knots : knot_counts) {
+    for (const double setting : sweep.values) {
       const Medium medium{0.01 * b, 0.99 * b, 0.0, 1.0, 0.0};
-      const SolvedChannel solved =
-          solve("slab.yaml", {fmt::format("materials.medium.sigma_a={}", medium.sigma_a),
-                              fmt::format("materials.medium.sigma_s={}", medium.sigma_s),
-                              fmt::format("solver.knots={}", knots)});
+      const Timed solved =
+          solve("slab.yaml",
+                {fmt::format("materials.medium.sigma_a={}", medium.sigma_a),
+                 fmt::format("materials.medium.sigma_s={}", medium.sigma_s),
+                 "solver.method=" + sweep.method, fmt::format("{}={}", sweep.setting, setting)});
       const SlabP1 slab(medium, Boundary::marshak, 1.0);
       std::vector<double> values, exact;
       for (int i = 0; i <= 10; ++i) {  // along an axis through the middle
-        values.push_back(solved.U_d_at(Vec3(0.1, 0.2, 0.1 * i)));
+        values.push_back(solved.channel.U_d_at(Vec3(0.1, 0.2, 0.1 * i)));
         exact.push_back(slab.U_d(0.1 * i));
       }
-      print_row(fmt::format("slab, b = {}, albedo 0.99", b), knots, compare(values, exact),
-                solved.report);
+      print_row(fmt::format("slab, b = {}, albedo 0.99", b), knots, compare(values, exact), solved);
     }
 }
 
 }  // namespace
 }  // namespace knotlight
 
-int main() {
-  fmt::print(
-      "| case | knots | rank, particular | rank, homogeneous | relative L2 error | max error / max "
-      "U_d | "
-      "the program's bound | noise | energy imbalance |\n|---|---|---|---|---|---|---|---|---|\n");
-  knotlight::sphere_rows();
-  knotlight::slab_rows();
+int main(int argc, char** argv) {
+  using namespace knotlight;
+  for (const Sweep& sweep : sweeps)
+    if (argc == 2 && sweep.method == argv[1]) {
+      fmt::print(
+          "| case | {} | {} | {} | relative L2 error | max error / max U_d | error estimate of the "
+          "solver | "
+          "noise | energy imbalance | seconds |\n|---|---|---|---|---|---|---|---|---|---|\n",
+          sweep.setting, sweep.figures[0], sweep.figures[1]);
+      sphere_rows(sweep);
+      slab_rows(sweep);
+      return 0;
+    }
+  fmt::print(stderr, "usage: method_error_bench bkm_thesis|grid\n");
+  return 2;
 }

@@ -1,0 +1,117 @@
+#include "pipeline/solve_grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "grid/error_estimate.h"
+#include "grid/solver.h"
+
+namespace knotlight {
+namespace {
+
+using std::numbers::pi;
+
+// Beyond this cell size the layer in which light is first scattered lies within one cell, on the
+// coarse grid too, and comparing the two says nothing any more.
+constexpr double coarsest_cells = 2.0;  // transport mean free paths
+constexpr double lost_allowed = 1e-3;   // share of the sources that found no cell
+
+// The weak form of docs/theory.md (5) and (7), tested with v: a first-interaction photon of power
+// dPhi flying along w gives
+//   3 sigma_s sigma_tr / (4 pi sigma_t) dPhi v  +  (3/4pi) g (sigma_s / sigma_t) dPhi w . grad v.
+// The boundary term with Q_ri . n cancels against the one from div Q_ri: no density has to be
+// estimated, anywhere.
+GridLoad photon_load(const GridGeometry& geometry, const std::vector<VolumePhoton>& photons,
+                     const ChannelProblem& p) {
+  const Medium& m = p.medium;
+  const double strength = 3.0 * m.sigma_s * m.sigma_tr() / (4.0 * pi * m.sigma_t());
+  const double moment = 3.0 / (4.0 * pi) * m.g * m.sigma_s / m.sigma_t();
+  GridLoad load(geometry);
+  for (const VolumePhoton& photon : photons) {
+    load.add_source(photon.position, strength * photon.power);
+    if (moment != 0.0) load.add_flux(photon.position, moment * photon.power * photon.direction);
+  }
+  load.add_uniform(p.coefficients.source_per_E * m.emission);
+  return load;
+}
+
+}  // namespace
+
+ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
+                       const Workers& workers) {
+  double sigma_tr = 0.0;
+  for (int c = 0; c < channels; ++c)
+    sigma_tr = std::max(sigma_tr, object.translucent()->medium(c).sigma_tr());
+  ObjectGrids grids;
+  grids.size = cell_size_for(object.shape, sigma_tr, settings.tolerance);
+  grids.fine = std::make_shared<GridGeometry>(object.shape, grids.size.h, workers);
+  grids.coarse = std::make_shared<GridGeometry>(object.shape, 2.0 * grids.size.h, workers);
+  return grids;
+}
+
+ChannelSolution solve_by_grid(const ChannelProblem& p) {
+  const ObjectGrids& grids = *p.grids;
+  ChannelSolution solution;
+  if (!grids.fine->ok() || !grids.coarse->ok()) {
+    solution.failures.push_back("the grid cannot hold the object: " +
+                                (grids.fine->ok() ? grids.coarse : grids.fine)->failure());
+    return solution;
+  }
+
+  const double lambda = p.coefficients.lambda;
+  const double k = p.coefficients.k;
+  const GridSolver fine(grids.fine, lambda, k);
+  const GridLoad loads[2] = {photon_load(*grids.fine, p.photons.maps[0].photons(), p),
+                             photon_load(*grids.fine, p.photons.maps[1].photons(), p)};
+  const GridSolution halves[2] = {fine.solve(loads[0]), fine.solve(loads[1])};
+  const GridField field(grids.fine, 0.5 * (halves[0].field.nodes() + halves[1].field.nodes()));
+
+  const GridSolver coarse(grids.coarse, lambda, k);
+  const Eigen::VectorXd coarse_load =
+      0.5 * (photon_load(*grids.coarse, p.photons.maps[0].photons(), p).values() +
+             photon_load(*grids.coarse, p.photons.maps[1].photons(), p).values());
+  const GridSolution coarse_solution = coarse.solve(coarse_load);
+
+  const SurfaceSamples checks = boundary_check_points(p);
+  const Eigen::VectorXd u = field.values(checks.positions, checks.normals);
+  const GridErrorEstimate estimate =
+      estimate_error(field, coarse_solution.field, checks.positions, checks.normals);
+  // Both relative to the rms over the surface.
+  solution.numerical_error = relative(estimate.rms * estimate.scale, root_mean_square(u));
+  solution.noise =
+      relative(root_mean_square(halves[0].field.values(checks.positions, checks.normals) - u),
+               root_mean_square(u));
+
+  const bool converged = halves[0].converged && halves[1].converged && coarse_solution.converged;
+  solution.solved = field.nodes().allFinite() && u.allFinite();
+  if (!converged) solution.failures.push_back("the linear solver did not converge");
+  if (!solution.solved) solution.failures.push_back("the solution has values that are not finite");
+  if (!grids.fine->resolved())
+    solution.failures.push_back("the grid does not resolve the object: " +
+                                grids.fine->unresolved());
+  const double cell_in_mean_free_paths = grids.size.h * p.medium.sigma_tr();
+  if (cell_in_mean_free_paths > coarsest_cells)
+    solution.failures.push_back(
+        fmt::format("cells of {:.2g} transport mean free paths do not resolve the light's first "
+                    "scattering, expected at most {}",
+                    cell_in_mean_free_paths, coarsest_cells));
+  const double lost = relative(loads[0].lost() + loads[1].lost(),
+                               std::abs(loads[0].total()) + std::abs(loads[1].total()));
+  if (!(lost <= lost_allowed))
+    solution.failures.push_back(fmt::format("{:.2g} of the sources found no cell", lost));
+
+  solution.figures = {{"cells", static_cast<double>(grids.fine->quality().cells)},
+                      {"cell_size", grids.size.h},
+                      {"cell_size_in_transport_mean_free_paths", cell_in_mean_free_paths},
+                      {"iterations", static_cast<double>(halves[0].iterations)},
+                      {"linear_residual", std::max(halves[0].residual, halves[1].residual)},
+                      {"sources_lost", lost},
+                      {"largest_grid_difference", estimate.largest}};
+  solution.U_d = [field](const Points& x) { return field.values(x); };
+  return solution;
+}
+
+}  // namespace knotlight

@@ -1,0 +1,26 @@
+// `method: grid`: photons counted into the cells of a grid, finite elements cut off at the surface.
+#pragma once
+
+#include <memory>
+
+#include "grid/cell_size.h"
+#include "grid/geometry.h"
+#include "pipeline/channel_problem.h"
+
+namespace knotlight {
+
+// An object on cells of size h and, for the error estimate, 2 h.
+struct ObjectGrids {
+  CellSize size;
+  std::shared_ptr<const GridGeometry> fine;
+  std::shared_ptr<const GridGeometry> coarse;
+};
+
+// Cells small enough for every channel of the object.
+ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
+                       const Workers& workers);
+
+// problem.grids must not be null.
+ChannelSolution solve_by_grid(const ChannelProblem& problem);
+
+}  // namespace knotlight
