@@ -46,7 +46,7 @@ constexpr std::size_t min_knots = 4;                 // four points span a volum
 constexpr std::size_t max_estimate_photons = 1'000'000;
 
 // Noise falls as n^-1/2; on the shipped scenes this many leave about the tolerance of noise
-// (docs/results/speed.md).
+// (docs/results/accuracy.md).
 std::size_t default_photons(double tolerance) {
   constexpr double photons_at_one_per_cent = 3e6;
   constexpr double fewest = 3e5, most = 3e7;

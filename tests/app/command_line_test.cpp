@@ -102,7 +102,11 @@ TEST_F(CommandLine, HardlyAnyPhotonsAreNotTrusted) {
 }
 
 TEST_F(CommandLine, SummaryHoldsWhatWasMeasured) {
-  run("render scene.yaml -o a.exr --json a.json");
+  run("render scene.yaml -o a.exr --json a.json --set solver.method=bkm_thesis");
+  run("render scene.yaml -o b.exr --json b.json --set solver.method=grid");
+  const auto grid = nlohmann::json::parse(read_file(scratch_.path("b.json")));
+  EXPECT_EQ(grid["objects"][0]["cells"].size(), 3U);
+  EXPECT_TRUE(grid["seconds"].contains("grid"));
   const auto json = nlohmann::json::parse(read_file(scratch_.path("a.json")));
   for (const char* stage : {"scene", "geometry", "photons", "solve", "surface", "picture", "write"})
     EXPECT_TRUE(json["seconds"].contains(stage)) << stage;

@@ -76,7 +76,7 @@ TEST(SolveScene, DarknessIsExact) {
   EXPECT_TRUE(solved.report.failures.empty());
 }
 
-// The thesis's method on a beam: known to be far off (docs/results/baseline.md), and it must say
+// The thesis's method on a beam: known to be far off (docs/results/accuracy.md), and it must say
 // so.
 TEST(SolveScene, SaysWhenItIsWrong) {
   PreparedScene prepared = lit_ball({0.02, 19.98, 0.0, 1.0, 0.0}, settings(20'000, 100));

@@ -191,10 +191,11 @@ const Mistake mistakes[] = {
     {"photons: 1000", "svd_cut: 1", "23: solver.svd_cut: is '1', expected", "< 1"},
     {"photons: 1000", "shape_parameter: 0", "23: solver.shape_parameter: is '0', expected", ""},
     {"photons: 1000", "method: bmk_thesis",
-     "23: solver.method: is 'bmk_thesis' (did you mean 'bkm_thesis'?), expected auto or", ""},
+     "23: solver.method: is 'bmk_thesis' (did you mean 'bkm_thesis'?), expected auto, b", ""},
     {"photons: 1000", "method: mfs",
-     "23: solver.method: is 'mfs', which is not available in this version, expected auto or "
-     "bkm_thesis",
+     "23: solver.method: is 'mfs', which is not available in this version, expected auto, "
+     "bkm_thesis or "
+     "grid",
      ""},
     {"photons: 1000", "method: [bkm_thesis]", "23: solver.method: is a list of 1, expected", ""},
     {"photons: 1000", "source: boundary_flux",
@@ -331,7 +332,7 @@ TEST(BadInput, MistakesInOverrides) {
       {"camera.from=[1, 2, x]", "--set camera.from: camera.from.2: is 'x', expected a number", ""},
       {"camera={to: [1, 2, 3]}", "--set camera: camera.from: is missing", "expected"},
       {"camera.from=null", "", ":2: camera.from: is missing, expected a point"},
-      {"solver.method=grid", "--set solver.method: is 'grid', which is not available", "expected"},
+      {"solver.method=lbkm", "--set solver.method: is 'lbkm', which is not available", "expected"},
   };
   const ScratchFolder folder;
   const std::string file = folder.write("scene.yaml", good_scene);
