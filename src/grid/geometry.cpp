@@ -18,10 +18,11 @@ GridGeometry::GridGeometry(const Shape& shape, double h, const Workers& workers)
 }
 
 std::int32_t GridGeometry::piece_at(std::int32_t cell, const Vec3& local) const {
+  const std::int32_t first = finest().first_piece[static_cast<std::size_t>(cell)];
+  if (first >= 0 && finest().whole(first)) return first;
   const auto split =
       std::lower_bound(splits_.begin(), splits_.end(), cell,
                        [](const auto& entry, std::int32_t wanted) { return entry.first < wanted; });
-  const std::int32_t first = finest().first_piece[static_cast<std::size_t>(cell)];
   if (split == splits_.end() || split->first != cell) return first;
   // The nearest of the lines that have a part inside, and on it the nearest part.
   const CellSample& sample = split->second;
@@ -53,32 +54,27 @@ Place GridGeometry::locate_in_cells(const Vec3& x, const Vec3& within) const {
     if (!(at >= -1.0 && at <= level.grid.n[a])) return {};
     home[a] = static_cast<int>(at);
   }
-  std::int32_t cell = -1;
-  const auto occupied = [&](int i, int j, int k) {
-    return level.grid.contains(i, j, k) &&
-           level.first_piece[static_cast<std::size_t>(level.grid.index(i, j, k))] >= 0;
-  };
-  if (occupied(home[0], home[1], home[2])) {
-    cell = level.grid.index(home[0], home[1], home[2]);
-  } else {
+  const auto local = [&](int i, int j, int k) -> Vec3 { return within - Vec3(i, j, k); };
+  Place place;
+  if (level.grid.contains(home[0], home[1], home[2]))
+    place.piece =
+        piece_at(level.grid.index(home[0], home[1], home[2]), local(home[0], home[1], home[2]));
+  if (place.piece < 0) {
     double nearest = 1e300;
     for (int k = home[2] - 1; k <= home[2] + 1; ++k)
       for (int j = home[1] - 1; j <= home[1] + 1; ++j)
         for (int i = home[0] - 1; i <= home[0] + 1; ++i) {
-          if (!occupied(i, j, k)) continue;
-          const Vec3 low(i, j, k);
-          const Vec3 inside = within.cwiseMax(low).cwiseMin(low + Vec3::Ones());
-          const double distance = (within - inside).squaredNorm();
-          if (distance < nearest) {
-            nearest = distance;
-            cell = level.grid.index(i, j, k);
-          }
+          if (!level.grid.contains(i, j, k)) continue;
+          const Vec3 x_local = local(i, j, k);
+          const double distance = (x_local - x_local.cwiseMax(0.0).cwiseMin(1.0)).squaredNorm();
+          if (distance >= nearest) continue;
+          const std::int32_t piece = piece_at(level.grid.index(i, j, k), x_local);
+          if (piece < 0) continue;
+          nearest = distance;
+          place.piece = piece;
         }
   }
-  if (cell < 0) return {};
-  const auto p = level.grid.position(cell);
-  Place place;
-  place.piece = piece_at(cell, within - Vec3(p[0], p[1], p[2]));
+  if (place.piece < 0) return {};
   const auto q = level.grid.position(level.pieces[static_cast<std::size_t>(place.piece)].cell);
   place.local =
       (x - Vec3(q[0], q[1], q[2])).cwiseMax(-farthest_outside).cwiseMin(1.0 + farthest_outside);

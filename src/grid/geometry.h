@@ -66,6 +66,7 @@ class GridGeometry {
  private:
   friend class GeometryBuilder;
 
+  // The piece at local coordinates of a cell; -1 if it holds nothing of the object.
   std::int32_t piece_at(std::int32_t cell, const Vec3& local) const;
   Place locate_in_cells(const Vec3& cell_units, const Vec3& within) const;
 

@@ -21,6 +21,11 @@ constexpr double least_volume = 1e-9;
 // Coarsening ends here: a dense factorisation of this size costs less than a millisecond.
 constexpr std::int32_t coarsest_unknowns = 200;
 
+constexpr std::uint8_t all_faces = 0x3f;
+// Of the area of a sheet's two sides, what may be left of the sum of area n along its main axis. A
+// corner keeps 0.57 or more.
+constexpr double one_sided = 0.4;
+
 // What calls a shape unresolved. Shares of the whole that would show as errors of a per cent.
 constexpr double volume_allowed = 0.01;
 constexpr double area_allowed = 0.01;
@@ -64,7 +69,7 @@ void GeometryBuilder::build(const Shape& shape, double h) {
   }
   add_split_volumes();
   add_surface(mesh);
-  loosen_lone_pieces();
+  connect_lone_pieces();
   number_unknowns(level());
   judge(true_volume, true_area);
   while (geometry_.levels_.back().dofs > coarsest_unknowns)
@@ -78,15 +83,18 @@ void GeometryBuilder::find_surface_cells(const TriangleMesh& mesh) {
         static_cast<std::size_t>(level().grid.index(piece.cell[0], piece.cell[1], piece.cell[2]));
     if (state[cell] == outside) {
       state[cell] = surface - static_cast<std::int32_t>(surface_cells_.size());
-      surface_cells_.push_back({static_cast<std::int32_t>(cell), Vec3::Zero(), 0.0});
+      surface_cells_.push_back({static_cast<std::int32_t>(cell), Vec3::Zero(), Vec3::Zero(), 0.0});
     }
     SurfaceCell& found = surface_cells_[static_cast<std::size_t>(surface - state[cell])];
     found.facing += piece.area * piece.normal.cwiseAbs();
+    found.outward += piece.area * piece.normal;
     found.area += piece.area;
   });
-  for (const SurfaceCell& s : surface_cells_) state[static_cast<std::size_t>(s.cell)] = surface;
   std::sort(surface_cells_.begin(), surface_cells_.end(),
             [](const SurfaceCell& a, const SurfaceCell& b) { return a.cell < b.cell; });
+  for (std::size_t s = 0; s < surface_cells_.size(); ++s)
+    state[static_cast<std::size_t>(surface_cells_[s].cell)] =
+        surface - static_cast<std::int32_t>(s);
 }
 
 // A cell without surface is inside or outside as its centre is; a line beside the centre tells.
@@ -117,9 +125,33 @@ void GeometryBuilder::sample_surface_cells(const AxisLines& lines) {
       });
 }
 
+// Whether what a cell too thin to have places holds goes on in the next cell: some line does.
+bool GeometryBuilder::joins_neighbour(std::size_t index) const {
+  const Level& fine = geometry_.finest();
+  const CellSample& sample = samples_[index];
+  for (int line = 0; line < 16; ++line)
+    for (const LinePart& part : sample.lines[static_cast<std::size_t>(line)])
+      for (const int side : {-1, 1}) {
+        if (side < 0 ? part.begin > 0.0 : part.end < 1.0) continue;
+        auto beside = fine.grid.position(surface_cells_[index].cell);
+        beside[static_cast<std::size_t>(sample.axis)] += side;
+        const std::int32_t state = fine.first_piece[static_cast<std::size_t>(
+            fine.grid.index(beside[0], beside[1], beside[2]))];
+        const int bit = place_bit(sample.axis, side < 0 ? lines_per_cell - 1 : 0, line);
+        if (state == whole) return true;
+        if (state <= surface &&
+            (samples_[static_cast<std::size_t>(surface - state)].inside >> bit & 1) != 0)
+          return true;
+      }
+  return false;
+}
+
 // Pieces in the order of their cells; volumes of cells that no gap divides.
 void GeometryBuilder::make_pieces() {
   std::vector<std::int32_t>& state = level().first_piece;
+  std::vector<bool> joins(samples_.size());
+  for (std::size_t s = 0; s < samples_.size(); ++s)
+    joins[s] = samples_[s].parts.empty() && joins_neighbour(s);
   std::size_t next_sample = 0;
   for (std::size_t cell = 0; cell < state.size(); ++cell) {
     if (state[cell] == outside) continue;
@@ -129,35 +161,38 @@ void GeometryBuilder::make_pieces() {
       state[cell] = first;
       continue;
     }
+    const bool joined = joins[next_sample];
     CellSample& sample = samples_[next_sample++];
     Moments seen{};
     for (int line = 0; line < 16; ++line)
       for (const LinePart& part : sample.lines[static_cast<std::size_t>(line)])
         add_line_part(seen, sample.axis, line, part, Vec3::Zero());
-    if (!(total(seen) > least_volume)) {
+    if (joined || !(total(seen) > least_volume)) {
       state[cell] = outside;
+      if (joined)
+        geometry_.splits_.emplace_back(static_cast<std::int32_t>(cell), std::move(sample));
       continue;
     }
+    const bool split = sample.split();
     if (sample.parts.empty()) sample.parts.push_back(0);
     for (const Places places : sample.parts) {
       CutPiece cut;
       cut.piece = static_cast<std::int32_t>(level().pieces.size());
       cut.inside = places;
       cut.links = sample.links;
-      if (!sample.split()) cut.volume = seen;
+      if (!split) cut.volume = seen;
       level().pieces.push_back(
           {static_cast<std::int32_t>(cell), static_cast<std::int32_t>(level().cuts.size()), {}});
       level().cuts.push_back(cut);
     }
     state[cell] = first;
-    if (sample.split())
-      geometry_.splits_.emplace_back(static_cast<std::int32_t>(cell), std::move(sample));
+    if (split) geometry_.splits_.emplace_back(static_cast<std::int32_t>(cell), std::move(sample));
   }
   samples_.clear();
 }
 
 // The piece that a part of a line belongs to: the one that has a place on it. A part too thin for
-// that continues in the next cell.
+// that continues in the next cell. -1 if neither is seen.
 std::int32_t GeometryBuilder::owner_of(std::int32_t cell, const CellSample& sample, int line,
                                        const LinePart& part) const {
   const Level& fine = geometry_.finest();
@@ -182,7 +217,7 @@ std::int32_t GeometryBuilder::owner_of(std::int32_t cell, const CellSample& samp
     if (const std::int32_t piece = holder(beside, side < 0 ? lines_per_cell - 1 : 0); piece >= 0)
       return piece;
   }
-  return fine.first_piece[static_cast<std::size_t>(cell)];
+  return -1;
 }
 
 CutPiece& GeometryBuilder::cut_of(std::int32_t piece) {
@@ -200,10 +235,17 @@ CutPiece& GeometryBuilder::cut_of(std::int32_t piece) {
 }
 
 void GeometryBuilder::add_split_volumes() {
-  for (auto& [cell, sample] : geometry_.splits_)
+  for (auto& [cell, sample] : geometry_.splits_) {
+    std::int32_t usual = level().first_piece[static_cast<std::size_t>(cell)];
     for (int line = 0; line < 16; ++line)
-      for (LinePart& part : sample.lines[static_cast<std::size_t>(line)])
+      for (LinePart& part : sample.lines[static_cast<std::size_t>(line)]) {
         part.piece = owner_of(cell, sample, line, part);
+        if (usual < 0) usual = part.piece;
+      }
+    for (auto& line : sample.lines)
+      for (LinePart& part : line)
+        if (part.piece < 0) part.piece = usual;
+  }
   for (const auto& [cell, sample] : geometry_.splits_)
     for (int line = 0; line < 16; ++line)
       for (const LinePart& part : sample.lines[static_cast<std::size_t>(line)]) {
@@ -255,27 +297,37 @@ double GeometryBuilder::thin_area() const {
   return area;
 }
 
-// A piece that is linked to nothing is a corner of the object that its neighbours' samples do not
-// see: taken as connected to all of them.
-void GeometryBuilder::loosen_lone_pieces() {
-  std::vector<std::size_t> lone;
-  const Level& fine = level();
-  for (std::size_t c = 0; c < fine.cuts.size(); ++c) {
-    const std::int32_t piece = fine.cuts[c].piece;
+// A piece that no line links to anything is a corner of the object whose foot lies between the
+// lines: taken as connected to the cell that its surface faces away from. Or it is part of a sheet
+// too thin to have places, with surface on both sides: taken as connected all around.
+void GeometryBuilder::connect_lone_pieces() {
+  Level& fine = level();
+  const auto linked = [&](std::int32_t piece) {
     const auto p = fine.grid.position(fine.pieces[static_cast<std::size_t>(piece)].cell);
-    bool linked = false;
-    for (int axis = 0; axis < 3 && !linked; ++axis)
+    for (int axis = 0; axis < 3; ++axis)
       for (const int side : {-1, 1}) {
         auto q = p;
         q[static_cast<std::size_t>(axis)] += side;
         const auto [first, last] = fine.pieces_of(q[0], q[1], q[2]);
         for (std::int32_t other = first; other < last; ++other)
-          linked = linked || (side < 0 ? connected(fine, other, piece, axis)
-                                       : connected(fine, piece, other, axis));
+          if (side < 0 ? connected(fine, other, piece, axis) : connected(fine, piece, other, axis))
+            return true;
       }
-    if (!linked) lone.push_back(c);
+    return false;
+  };
+  for (const SurfaceCell& s : surface_cells_) {
+    const auto p = fine.grid.position(s.cell);
+    const auto [first, last] = fine.pieces_of(p[0], p[1], p[2]);
+    for (std::int32_t piece = first; piece < last; ++piece) {
+      if (fine.whole(piece) || linked(piece)) continue;
+      Eigen::Index axis = 0;
+      const double most = s.outward.cwiseAbs().maxCoeff(&axis);
+      cut_of(piece).loose =
+          most > one_sided * s.area
+              ? static_cast<std::uint8_t>(1 << (2 * axis + (s.outward[axis] < 0.0 ? 1 : 0)))
+              : all_faces;
+    }
   }
-  for (const std::size_t c : lone) level().cuts[c].inside = 0;
 }
 
 void GeometryBuilder::judge(double true_volume, double true_area) {

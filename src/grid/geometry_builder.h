@@ -17,19 +17,21 @@ class GeometryBuilder {
  private:
   struct SurfaceCell {
     std::int32_t cell;
-    Vec3 facing;  // sum of area |n|
-    double area;  // in faces of a cell
+    Vec3 facing;   // sum of area |n|
+    Vec3 outward;  // sum of area n
+    double area;   // in faces of a cell
   };
 
   Level& level() { return geometry_.levels_.front(); }
   void find_surface_cells(const TriangleMesh& mesh);
   void find_whole_cells(const ScanLines& x_lines);
   void sample_surface_cells(const AxisLines& lines);
+  bool joins_neighbour(std::size_t sample) const;
   void make_pieces();
   void add_split_volumes();
   void add_surface(const TriangleMesh& mesh);
   double thin_area() const;
-  void loosen_lone_pieces();
+  void connect_lone_pieces();
   void judge(double true_volume, double true_area);
 
   // The cut record of a piece; a whole cell gets one of its own.

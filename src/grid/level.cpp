@@ -46,10 +46,12 @@ std::pair<std::int32_t, std::int32_t> Level::pieces_of(int i, int j, int k) cons
 bool connected(const Level& level, std::int32_t lower, std::int32_t upper, int axis) {
   const bool whole_lower = level.whole(lower), whole_upper = level.whole(upper);
   if (whole_lower && whole_upper) return true;
+  const std::size_t face = 2 * static_cast<std::size_t>(axis);
+  if ((!whole_lower && (level.cut(lower).loose >> (face + 1) & 1) != 0) ||
+      (!whole_upper && (level.cut(upper).loose >> face & 1) != 0))
+    return true;
   const Places below = whole_lower ? all_places : level.cut(lower).inside;
   const Places above = whole_upper ? all_places : level.cut(upper).inside;
-  if (below == 0 || above == 0) return true;
-  const std::size_t face = 2 * static_cast<std::size_t>(axis);
   const unsigned links =
       whole_lower ? level.cut(upper).links[face] : level.cut(lower).links[face + 1];
   for (int line = 0; line < 16; ++line)
@@ -142,6 +144,7 @@ Level coarser(const Level& fine) {
         const auto index = static_cast<std::int32_t>(coarse.pieces.size());
         if (whole_children != 8) {
           cut.piece = index;
+          cut.loose = 0x3f;
           for_each_child([&](int c, std::int32_t p) {
             add_to_parent(cut.volume, fine.whole(p) ? whole : fine.cut(p).volume, c, 1.0 / 8.0);
             if (!fine.whole(p)) add_to_parent(cut.surface, fine.cut(p).surface, c, 1.0 / 4.0);

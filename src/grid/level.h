@@ -26,7 +26,10 @@ struct CutPiece {
   std::int32_t piece = -1;
   Moments volume{};   // in cell volumes
   Moments surface{};  // in cell faces
-  Places inside = 0;  // 0: thinner than the sampling; taken as connected to all its neighbours
+  Places inside = 0;
+  // Bit per face (2 axis + upper): taken as connected there although no line shows it. For pieces
+  // that the sampling does not see connected to anything.
+  std::uint8_t loose = 0;
   // Per face (2 axis + upper): of the 4 x 4 lines through it, those that stay inside the object
   // from the last place on one side to the first on the other.
   std::array<std::uint16_t, 6> links{};

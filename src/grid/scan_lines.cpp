@@ -55,7 +55,9 @@ class Footprint {
     const Eigen::Vector2d e = p_[to] - p_[from], d = q - p_[from];
     const double area = e.x() * d.y() - e.y() * d.x();
     value = swapped ? -area : area;
-    return (area >= 0.0) != swapped;
+    // A line through an edge is taken as shifted by (epsilon, epsilon^2).
+    const bool left = area != 0.0 ? area > 0.0 : e.y() < 0.0 || (e.y() == 0.0 && e.x() > 0.0);
+    return left != swapped;
   }
 
   // The weight of a corner is the area of the edge that faces it. Clamped: for a triangle seen

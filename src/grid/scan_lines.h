@@ -23,8 +23,9 @@ struct Interval {
 class ScanLines {
  public:
   // `mesh` in cell units (cells are unit cubes from 0); n = cells per axis. Inside is where the
-  // winding number is positive. A line whose crossings do not cancel, because it meets an edge to
-  // rounding or the mesh has a hole, takes the intervals of the line before it and is counted.
+  // winding number is positive. A line whose crossings do not cancel, because the mesh has a hole
+  // or the line meets an edge to rounding, takes the intervals of the line before it and is
+  // counted.
   ScanLines(const TriangleMesh& mesh, const std::array<int, 3>& n, int axis);
 
   int axis() const { return axis_; }

@@ -33,15 +33,16 @@ TEST(Multigrid, PreconditionerIsSymmetricPositive) {
 
 // The number of steps does not grow with the number of cells, for any medium.
 TEST(Multigrid, StepsDoNotGrow) {
-  for (const double lambda : {0.0, 1.0, 30.0})
-    for (const double k : {0.01, 0.1, 3.0})
-      for (const double h : {0.12, 0.06, 0.03}) {
-        const auto g = geometry(Sphere{}, h);
+  for (const double h : {0.12, 0.06, 0.03}) {
+    const auto g = geometry(Sphere{}, h);
+    for (const double lambda : {0.0, 30.0})
+      for (const double k : {0.01, 3.0}) {
         const Multigrid m(g->levels(), {lambda, k});
         const auto result = solve(m, random_vector(m.finest().size(), 3), 1e-8, 60);
         EXPECT_TRUE(result.converged);
         EXPECT_LE(result.iterations, 20) << lambda << " " << k << " " << h;
       }
+  }
 }
 
 TEST(Multigrid, BadDataEnd) {

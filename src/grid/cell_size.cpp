@@ -1,0 +1,31 @@
+#include "grid/cell_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotlight {
+namespace {
+
+// At these the relative error is 0.01 or less in the measured cases (docs/grid.md).
+constexpr double usual_tolerance = 0.01;
+constexpr double mean_free_paths_per_cell = 0.5;
+constexpr double cells_per_size = 64.0;
+// A cell of the bounding box costs an eighth of one inside or less: 4 bytes, and no work per step.
+constexpr double box_share = 8.0;
+
+}  // namespace
+
+CellSize cell_size_for(const Shape& shape, double sigma_tr, double tolerance,
+                       std::size_t most_cells) {
+  const Bounds box = bounds(shape);
+  const double rule =
+      std::sqrt(tolerance / usual_tolerance) *
+      std::min(mean_free_paths_per_cell / sigma_tr, box.largest_extent() / cells_per_size);
+  const auto most = static_cast<double>(most_cells);
+  const double budget = std::max(std::cbrt(volume(shape) / most),
+                                 std::cbrt((box.hi - box.lo).prod() / (box_share * most)));
+  const double h = std::max(rule, budget);
+  return {h, h * sigma_tr, budget > rule};
+}
+
+}  // namespace knotlight
