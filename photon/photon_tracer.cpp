@@ -13,6 +13,10 @@ constexpr std::size_t largest_batch = 4096;
 // Few photons still make this many batches: the spread over 64 is known to 9 %.
 constexpr std::size_t wanted_batches = 64;
 
+// Light that comes back is a smaller and smoother part of the source than the first light, so a
+// quarter of the paths carries it with as little noise.
+constexpr double reentering_share = 0.25;
+
 }  // namespace
 
 TraceResult trace_photons(const Scene& scene, const RayCaster& caster, int channel,
@@ -21,8 +25,12 @@ TraceResult trace_photons(const Scene& scene, const RayCaster& caster, int chann
   TraceResult result;
   result.photons.resize(objects);
   result.audit.resize(objects);
-  const bool first_only = options.orders == TracerOptions::Orders::first;
-  const PhotonWalk walk(scene, caster, channel, {first_only, options.store});
+  using Orders = TracerOptions::Orders;
+  const double follow = options.orders == Orders::first        ? 0.0
+                        : options.orders == Orders::reentering ? reentering_share
+                                                               : 1.0;
+  const PhotonWalk walk(scene, caster, channel,
+                        {follow, options.store, options.orders == Orders::reentering});
   if (!walk.target()) return result;
   const Emitter emitter(scene.lights, channel, *walk.target(), walk.scene_bounds());
   if (!emitter.any() || options.photons == 0) return result;

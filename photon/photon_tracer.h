@@ -16,9 +16,12 @@ namespace knotlight {
 struct TracerOptions {
   std::size_t photons = 1'000'000;  // emitted
   std::uint64_t seed = 1;
-  // first: a path ends at its first interaction, all that the source term needs.
-  // all: until absorbed or out of the scene; for audits and for checking the diffusion solution.
-  enum class Orders { first, all } orders = Orders::first;
+  // first: a path ends at its first interaction, all that the source of a single convex object
+  // needs. reentering: one path in four goes on, with four times the power, so that light that
+  // leaves an object and meets it, or another one, again is counted too; first interactions alone
+  // are stored. all: until absorbed or out of the scene; for audits and for checking the diffusion
+  // solution.
+  enum class Orders { first, reentering, all } orders = Orders::first;
   bool store = true;  // keep the volume photons (an audit alone does not need them)
 };
 
@@ -31,8 +34,9 @@ struct TraceResult {
 // Same bits for any number of workers; photon i draws the same numbers in every channel, so that
 // the noise of the channels is alike and colours do not speckle. Diffuse objects absorb what hits
 // them. Light that leaves one translucent object and enters another starts there at order 1 again.
-// With Orders::first the audit's `absorbed` is 0: all that interacts is `unfollowed`. The bar of
-// `stage` counts photons.
+// With Orders::first the audit's `absorbed` is 0: all that interacts is `unfollowed`; with
+// Orders::reentering `unfollowed` may be negative, since some paths go on with more power. The bar
+// of `stage` counts photons.
 TraceResult trace_photons(const Scene& scene, const RayCaster& caster, int channel,
                           const TracerOptions& options, const Workers& workers, Stage& stage);
 

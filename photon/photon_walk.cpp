@@ -40,6 +40,7 @@ struct PhotonWalk::Flight {
   bool on_surface = false;   // of `object`; else in free space or in its interior
   std::uint32_t object = 0;  // that it is inside of, or on the surface of
   std::uint32_t order = 0;   // interactions since it entered
+  bool followed = false;     // past its first interaction ever
   std::size_t events = 0;
 
   Ray ray(double t_max = std::numeric_limits<double>::infinity()) const {
@@ -239,14 +240,20 @@ void PhotonWalk::interact(Flight& flight, Rng& rng, WalkRecord& record) const {
   }
   flight.order += 1;
   tally.interactions += flight.power;
-  if (options_.store)
+  if (options_.store && (flight.order == 1 || !options_.store_first_only))
     record.photons[flight.object].push_back(
         {flight.position, flight.direction, flight.power, flight.order});
-  if (options_.first_interaction_only) {
-    tally.unfollowed += flight.power;
-    flight.alive = false;
-    return;
+  if (!flight.followed && options_.follow_probability < 1.0) {
+    if (rng.uniform() >= options_.follow_probability) {
+      tally.unfollowed += flight.power;
+      flight.alive = false;
+      return;
+    }
+    const double raised = flight.power / options_.follow_probability;
+    tally.unfollowed += flight.power - raised;
+    flight.power = raised;
   }
+  flight.followed = true;
   if (rng.uniform() >= item.albedo) {
     tally.absorbed += flight.power;
     flight.alive = false;

@@ -30,8 +30,10 @@ struct WalkRecord {
 class PhotonWalk {
  public:
   struct Options {
-    bool first_interaction_only = true;
+    // With which a path goes on after its first interaction ever, its power divided by it.
+    double follow_probability = 0.0;
     bool store = true;
+    bool store_first_only = false;  // of each stay in an object
   };
 
   // `scene` and `caster` must outlive the walk; caster was built from scene.objects in order.

@@ -36,6 +36,7 @@ void add_common_options(CLI::App& command, CommandLine& line) {
       ->allow_extra_args(false)
       ->take_all();
   command.add_option("--seed", line.options.seed, "seed of all random numbers")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command.add_option("--threads", line.options.threads, "threads; 0 = one per core")
       ->check(CLI::Range(0, 1024))
@@ -64,9 +65,20 @@ void write_summary(const CommandLine& line, const std::string& command, const Re
     write_text_file(line.options.json, report_json(command, report, scene, run));
 }
 
+// Before the work starts, not after it.
+void check_folder_of(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(
+        fmt::format("{}: its folder does not exist, expected a place to write to", file));
+}
+
 int render(const CommandLine& line, RunContext& run) {
   const std::vector<std::string> files = picture_files(line);
-  for (const std::string& file : files) check_image_extension(file);
+  for (const std::string& file : files) {
+    check_image_extension(file);
+    check_folder_of(file);
+  }
   Scene scene;
   const Report report = render_scene(line.scene, files, run, scene);
   write_summary(line, "render", report, scene, run);
@@ -76,6 +88,7 @@ int render(const CommandLine& line, RunContext& run) {
 }
 
 int probe(const CommandLine& line, RunContext& run) {
+  check_folder_of(line.output);
   Scene scene;
   const Report report = probe_scene(line.scene, line.points, line.output, run, scene);
   write_summary(line, "probe", report, scene, run);
@@ -93,9 +106,12 @@ int info(const CommandLine& line, RunContext& run) {
   return exit_ok;
 }
 
-// Ctrl-C: workers stop between chunks and destructors tidy up; a second one ends at once.
+// Ctrl-C ends the program at once: files appear by renaming, so only a pending temporary has to go.
 extern "C" void on_interrupt(int) {
-  if (interrupt_requested.exchange(true)) _exit(exit_interrupted);
+  remove_pending_file();
+  constexpr char message[] = "\ninterrupted; no file was changed\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message, sizeof(message) - 1);
+  _exit(exit_failure);
 }
 
 int run_program(int argc, char** argv) {
@@ -146,6 +162,7 @@ int run_program(int argc, char** argv) {
   }
   line.json_wanted = info_json->count() > 0;
 
+  if (!line.options.json.empty()) check_folder_of(line.options.json);
   const bool bars = !line.options.quiet && isatty(STDERR_FILENO) != 0;
   RunContext run(line.options, bars);
   if (render_command.parsed()) return render(line, run);
@@ -165,9 +182,6 @@ int main(int argc, char** argv) {
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return exit_bad_input;
-  } catch (const Interrupted&) {
-    fmt::print(stderr, "interrupted; no file was changed\n");
-    return exit_interrupted;
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return exit_failure;

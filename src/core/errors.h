@@ -2,7 +2,7 @@
 //   wrong program    -> assert
 //   wrong input      -> InputError, one line, exit code 2
 //   wrong numbers    -> a value (status and message), never an exception; exit code 3
-//   the user's Ctrl-C -> Interrupted, exit code 130
+//   the user's Ctrl-C -> the program ends at once, exit code 1 (src/app/main.cpp)
 #pragma once
 
 #include <stdexcept>
@@ -16,7 +16,6 @@ enum ExitCode : int {
   exit_failure = 1,
   exit_bad_input = 2,
   exit_untrusted = 3,
-  exit_interrupted = 130,
 };
 
 // Something the user gave is wrong. what() is one line: "file:line: key: what is wrong, expected
@@ -24,12 +23,6 @@ enum ExitCode : int {
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-// The user pressed Ctrl-C; thrown by Workers between chunks so that destructors clean up.
-class Interrupted : public std::runtime_error {
- public:
-  Interrupted() : std::runtime_error("interrupted") {}
 };
 
 }  // namespace knotlight

@@ -11,7 +11,11 @@ namespace knotlight {
 void write_atomically(const std::string& path,
                       const std::function<void(const std::string& temporary)>& write);
 
-// The same for text.
+// Removes the temporary that is being written, if any. For signal handlers: calls nothing but
+// unlink.
+void remove_pending_file() noexcept;
+
+// The same as write_atomically for text.
 void write_text_file(const std::string& path, const std::string& text);
 
 }  // namespace knotlight

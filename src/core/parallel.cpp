@@ -1,16 +1,13 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
 
-#include "core/errors.h"
-
 namespace knotlight {
-
-std::atomic<bool> interrupt_requested{false};
 
 Workers::Workers(int threads)
     : threads_(threads > 0 ? threads
@@ -30,7 +27,6 @@ void Workers::for_chunks(
       const std::size_t chunk = next++;
       if (chunk >= chunks) return;
       try {
-        if (interrupt_requested) throw Interrupted();
         body(chunk, chunk * chunk_size, std::min(n, (chunk + 1) * chunk_size));
       } catch (...) {
         const std::lock_guard lock(error_mutex);

@@ -1,14 +1,10 @@
 // A parallel loop over chunks whose borders do not depend on the number of threads.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <functional>
 
 namespace knotlight {
-
-// Set by the program's SIGINT handler; Workers looks at it between chunks.
-extern std::atomic<bool> interrupt_requested;
 
 class Workers {
  public:

@@ -13,6 +13,7 @@ enum class Stream : std::uint64_t {
   boundary_knots,
   check_points,
   volume_points,
+  check_depths,
   tests,
 };
 

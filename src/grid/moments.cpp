@@ -108,17 +108,4 @@ ElementVector shape_functions(const Vec3& x) {
   return n;
 }
 
-Eigen::Matrix<double, 8, 3> shape_gradients(const Vec3& x) {
-  Eigen::Matrix<double, 8, 3> gradients;
-  for (int c = 0; c < 8; ++c) {
-    const auto o = corner_offset(c);
-    const Vec3 along(o[0] ? x.x() : 1.0 - x.x(), o[1] ? x.y() : 1.0 - x.y(),
-                     o[2] ? x.z() : 1.0 - x.z());
-    for (int axis = 0; axis < 3; ++axis)
-      gradients(c, axis) = (o[static_cast<std::size_t>(axis)] ? 1.0 : -1.0) *
-                           along[(axis + 1) % 3] * along[(axis + 2) % 3];
-  }
-  return gradients;
-}
-
 }  // namespace knotlight

@@ -34,7 +34,5 @@ ElementMatrix mass_matrix(const Moments& moments);
 ElementMatrix stiffness_matrix(const Moments& moments);
 // N_i at local coordinates x.
 ElementVector shape_functions(const Vec3& x);
-// grad N_i there, row = corner, in local coordinates.
-Eigen::Matrix<double, 8, 3> shape_gradients(const Vec3& x);
 
 }  // namespace knotlight

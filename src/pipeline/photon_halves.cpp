@@ -9,16 +9,10 @@ EstimateOptions estimate_options(const SolverSettings& settings) {
 }
 
 PhotonHalves::PhotonHalves(std::vector<VolumePhoton> photons, const Medium& medium) {
-  std::vector<VolumePhoton> even;
-  std::vector<VolumePhoton> odd;
-  even.reserve(photons.size() / 2 + 1);
-  odd.reserve(photons.size() / 2 + 1);
-  for (std::size_t i = 0; i < photons.size(); ++i) {
-    photons[i].power *= 2.0;
-    (i % 2 == 0 ? even : odd).push_back(photons[i]);
-  }
-  maps.emplace_back(std::move(even), medium);
-  maps.emplace_back(std::move(odd), medium);
+  for (VolumePhoton& photon : photons) photon.power *= 2.0;
+  const auto middle = photons.begin() + static_cast<std::ptrdiff_t>(photons.size() / 2);
+  maps.emplace_back(std::vector<VolumePhoton>(photons.begin(), middle), medium);
+  maps.emplace_back(std::vector<VolumePhoton>(middle, photons.end()), medium);
 }
 
 double PhotonHalves::U_ri(const Vec3& x, const EstimateOptions& options, const RayCaster& caster,

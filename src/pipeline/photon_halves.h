@@ -1,5 +1,6 @@
-// The photons of one object in one channel as two independent halves (even and odd photons): the
-// solution is the mean of what the halves give, half their difference is its noise.
+// The photons of one object in one channel as two independent halves (the first and the second half
+// of those emitted: a path may leave several photons, which must stay together): the solution is
+// the mean of what the halves give, half their difference is its noise.
 #pragma once
 
 #include <vector>

@@ -17,6 +17,9 @@ namespace {
 
 constexpr double surface_slack = 1e-3;  // of the object's size: fixed by the command's contract
 constexpr std::size_t points_per_chunk = 64;
+// A density estimate at a probe may reach this many mean free paths where photons are few: a single
+// value is wanted there, not a source to be integrated.
+constexpr double probe_radius = 1.0;
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\"");
@@ -79,9 +82,10 @@ struct Place {
 };
 
 std::optional<Place> locate(const Vec3& p, const PreparedScene& prepared) {
+  for (std::size_t i = 0; i < prepared.translucent.size(); ++i)
+    if (prepared.caster->inside(p, prepared.translucent[i])) return Place{i, p};
   for (std::size_t i = 0; i < prepared.translucent.size(); ++i) {
     const std::uint32_t object = prepared.translucent[i];
-    if (prepared.caster->inside(p, object)) return Place{i, p};
     const Vec3 nearest = prepared.caster->nearest_surface_point(p, object).position;
     const double size = bounds(prepared.scene.objects[object].shape).largest_extent();
     if ((nearest - p).norm() <= surface_slack * size) return Place{i, nearest};
@@ -96,7 +100,8 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
   const std::vector<Vec3> points = read_points(points_csv);
   const PreparedScene prepared = prepare_scene(path, run);
   const SolvedScene solved = solve_scene(prepared, run);
-  const EstimateOptions estimate = estimate_options(prepared.scene.solver);
+  EstimateOptions estimate = estimate_options(prepared.scene.solver);
+  estimate.max_radius = probe_radius;
 
   std::vector<std::string> rows(points.size());
   {

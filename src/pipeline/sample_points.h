@@ -15,7 +15,8 @@ struct SurfaceSamples {
 };
 SurfaceSamples columns(const std::vector<SurfacePoint>& points);
 
-// `count` points uniform in the object's volume (rejection from its bounding box).
+// `count` points uniform in the object's volume (rejection from its bounding box); fewer, perhaps
+// none, if the object fills next to nothing of its box.
 Points volume_points(const Shape& shape, const RayCaster& caster, std::uint32_t object,
                      std::size_t count, std::uint64_t seed);
 

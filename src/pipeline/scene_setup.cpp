@@ -3,10 +3,29 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
+#include "render/camera.h"
 #include "scene/scene_reader.h"
 #include "trace/overlap.h"
 
 namespace knotlight {
+
+namespace {
+
+// A perspective eye is a point; an orthographic one a rectangle, looked at in 17 x 17 places.
+bool eye_inside(const Camera& camera, const RayCaster& caster, std::uint32_t object) {
+  const CameraRays rays(camera);
+  constexpr int steps = 16;
+  for (int y = 0; y <= steps; ++y)
+    for (int x = 0; x <= steps; ++x) {
+      const Ray ray = rays.ray(camera.width_px * x / static_cast<double>(steps),
+                               camera.height_px * y / static_cast<double>(steps));
+      if (caster.inside(ray.origin, object)) return true;
+      if (camera.type == Camera::Type::perspective) return false;
+    }
+  return false;
+}
+
+}  // namespace
 
 PreparedScene prepare_scene(const std::string& path, RunContext& run) {
   PreparedScene prepared;
@@ -31,7 +50,7 @@ PreparedScene prepare_scene(const std::string& path, RunContext& run) {
     throw InputError(path + ": objects: " + error.what());
   }
   for (const std::uint32_t i : prepared.translucent)
-    if (prepared.caster->inside(scene.camera.from, i))
+    if (eye_inside(scene.camera, *prepared.caster, i))
       throw InputError(
           fmt::format("{}: camera.from: lies inside object '{}', expected a place outside", path,
                       scene.objects[i].name));

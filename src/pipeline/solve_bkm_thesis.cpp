@@ -55,16 +55,16 @@ Places check_places(const ChannelProblem& p) {
   const SurfaceSamples roots = columns(
       stratified_surface_points(p.shape, layer_checks, true, p.seed + 1, Stream::check_points));
   const double depth = check_depth / p.medium.sigma_tr();
-  Rng rng(p.seed, Stream::check_points, p.object);
+  Rng rng(p.seed, Stream::check_depths, p.object);
   Points points(3, roots.positions.cols() + static_cast<Eigen::Index>(volume_checks));
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < roots.positions.cols(); ++i) {
     const Vec3 x = roots.positions.col(i) - depth * rng.uniform() * roots.normals.col(i);
     if (p.caster.inside(x, p.object)) points.col(count++) = x;
   }
-  points.middleCols(count, volume_checks) =
-      volume_points(p.shape, p.caster, p.object, volume_checks, p.seed + 1);
-  places.interior = points.leftCols(count + static_cast<Eigen::Index>(volume_checks));
+  const Points anywhere = volume_points(p.shape, p.caster, p.object, volume_checks, p.seed + 1);
+  points.middleCols(count, anywhere.cols()) = anywhere;
+  places.interior = points.leftCols(count + anywhere.cols());
   return places;
 }
 

@@ -32,7 +32,7 @@ GridLoad photon_load(const GridGeometry& geometry, const std::vector<VolumePhoto
   GridLoad load(geometry);
   for (const VolumePhoton& photon : photons) {
     load.add_source(photon.position, strength * photon.power);
-    if (moment != 0.0) load.add_flux(photon.position, moment * photon.power * photon.direction);
+    if (moment != 0.0) load.add_dipole(photon.position, moment * photon.power * photon.direction);
   }
   load.add_uniform(p.coefficients.source_per_E * m.emission);
   return load;

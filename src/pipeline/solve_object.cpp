@@ -26,8 +26,10 @@ void balance_energy(const ChannelProblem& p, const FieldValues& U_d, ChannelRepo
       stratified_surface_points(p.shape, boundary_samples, true, p.seed + 2, Stream::check_points));
   const Eigen::VectorXd inside =
       U_d(volume_points(p.shape, p.caster, p.object, volume_samples, p.seed));
-  const double mean = inside.mean();
-  const double deviation = std::sqrt((inside.array() - mean).square().mean());
+  // None found, in an object that fills nothing of its box: not-a-number, which fails the check.
+  const double mean = inside.sum() / static_cast<double>(inside.size());
+  const double deviation =
+      std::sqrt((inside.array() - mean).square().sum() / static_cast<double>(inside.size()));
   const double absorbed_per_U = 4.0 * std::numbers::pi * p.medium.sigma_a * solid;
   report.power_in = p.medium.albedo() * report.photon_power + p.medium.emission * solid;
   report.power_leaving =
@@ -38,6 +40,8 @@ void balance_energy(const ChannelProblem& p, const FieldValues& U_d, ChannelRepo
   report.energy_imbalance_standard_error = relative(
       absorbed_per_U * deviation / std::sqrt(static_cast<double>(inside.size())), report.power_in);
 }
+
+constexpr double largest_blind_zone = 0.01;  // mean free paths: 1 % of the light at a surface
 
 // With fewer photons even "no light gets here" cannot be told from bad luck: three in so many is
 // the 95 % bound on a share of the light of which none was seen.
@@ -102,6 +106,12 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
     result.failures.push_back(
         fmt::format("{} photons are too few to judge anything by, expected {}",
                     scene.solver.photons, least_photons));
+  const double blind = caster.touching_distance() * medium.sigma_t();
+  if (!(blind <= largest_blind_zone))
+    result.failures.push_back(fmt::format(
+        "the scene is so large that rays cannot tell surfaces {:.2g} mean free paths apart, "
+        "expected at most {}: bring its far objects nearer",
+        blind, largest_blind_zone));
   judge(report, scene.solver.tolerance, result.failures);
   return result;
 }

@@ -2,13 +2,44 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 
+#include "core/convexity.h"
 #include "photon/photon_tracer.h"
 #include "pipeline/info.h"
 #include "pipeline/solve_grid.h"
+#include "trace/overlap.h"
 
 namespace knotlight {
+
+namespace {
+
+// Light that has left an object can enter it, or another one, again unless there is but one,
+// convex.
+bool light_can_come_back(const PreparedScene& prepared) {
+  return prepared.translucent.size() > 1 ||
+         (prepared.translucent.size() == 1 &&
+          !is_convex(prepared.scene.objects[prepared.translucent[0]].shape));
+}
+
+// Photons are sent at the sphere around all translucent objects. Whether enough of them were aimed
+// at one object's own sphere to tell darkness from bad luck.
+bool aimed_at(const PreparedScene& prepared, std::uint32_t object) {
+  constexpr double enough = 10'000.0;  // three in so many is the 95 % bound if none was seen
+  Bounds all;
+  for (const std::uint32_t i : prepared.translucent) {
+    const Bounds own = bounds(prepared.scene.objects[i].shape);
+    all.extend(own.lo);
+    all.extend(own.hi);
+  }
+  const double share =
+      std::pow(bounds(prepared.scene.objects[object].shape).radius() / all.radius(), 2);
+  return prepared.scene.lights.empty() ||
+         share * static_cast<double>(prepared.scene.solver.photons) >= enough;
+}
+
+}  // namespace
 
 SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
   const Scene& scene = prepared.scene;
@@ -20,6 +51,7 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
     TracerOptions options;
     options.photons = scene.solver.photons;
     options.seed = run.options.seed;
+    if (light_can_come_back(prepared)) options.orders = TracerOptions::Orders::reentering;
     Stage stage(run.stages, "photons", options.photons * channels);
     for (int c = 0; c < scene.channels; ++c)
       photons.push_back(
@@ -55,6 +87,8 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
   }
 
   SolvedScene result;
+  for (const std::string& inclusion : opaque_inclusions(scene, *prepared.caster))
+    result.report.failures.push_back(inclusion + ": the diffusion equation does not know it");
   for (std::size_t i = 0; i < prepared.translucent.size(); ++i) {
     const Object& object = scene.objects[prepared.translucent[i]];
     ObjectReport report;
@@ -70,6 +104,13 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
           diffusion_validity(object.shape, object.translucent()->medium(static_cast<int>(c)));
       for (const std::string& failure : channel.failures)
         result.report.failures.push_back(fmt::format("{}: {}", where, failure));
+      if (!aimed_at(prepared, prepared.translucent[i]) && channel.report.photons == 0)
+        result.report.failures.push_back(fmt::format(
+            "{}: no photon met it, but hardly any was sent its way: it is small beside the others",
+            where));
+      if (object.translucent()->emission.maxCoeff() > 0.0 && light_can_come_back(prepared))
+        result.report.failures.push_back(fmt::format(
+            "{}: light that it emits itself and that comes back to it is not counted", where));
       for (const std::string& reason : validity.reasons)
         result.report.failures.push_back(
             fmt::format("{}: diffusion does not hold: {}", where, reason));

@@ -13,6 +13,7 @@ namespace knotlight {
 namespace {
 
 constexpr int tile_size = 16;          // pixels; small enough to balance two cores at the end
+constexpr double invisible = 1e-5;     // of the light behind an object
 constexpr int mirror_bounces = 4;      // R^4 < 1e-5 away from grazing angles
 constexpr double crease_cosine = 0.7;  // facets within 45 degrees are shaded as one smooth surface
 // Smoothed normals can face away from the eye at silhouettes; leaving light then takes this cosine.
@@ -78,11 +79,23 @@ class Picture {
       light[c] =
           surface.leaving[channel](surface.grid.interpolate(surface.U_d[channel], hit), cosine);
     }
+    if (material.ior == 1.0) return light + seen_through(ray, hit, material, bounces, rng);
     const double reflectance = fresnel_reflectance(cosine, material.ior);
     if (reflectance == 0.0 || bounces == 0) return light;
     const Vec3 mirrored = reflect(ray.direction, n);
     if (mirrored.dot(hit.normal) <= 0.0) return light;  // into the facet: smoothing's artefact
     return light + reflectance * radiance({hit.position, mirrored}, bounces - 1, rng);
+  }
+
+  // What lies behind an index-matched object, weakened by exp(-sigma_t length). (A refracting one
+  // bends and mirrors the ray many times; it is taken as opaque to unscattered light.)
+  Spectrum seen_through(const Ray& ray, const Hit& hit, const TranslucentMaterial& material,
+                        int bounces, Rng& rng) const {
+    const auto way_out = caster_.nearest({hit.position, ray.direction}, hit.object);
+    if (!way_out || bounces == 0) return Spectrum::Zero();
+    const Spectrum passed = (-(material.sigma_a + material.sigma_s) * way_out->t).exp();
+    if (passed.maxCoeff() < invisible) return Spectrum::Zero();
+    return passed * radiance({way_out->position, ray.direction}, bounces - 1, rng);
   }
 
   Vec3 shading_normal(const Hit& hit) const {

@@ -40,9 +40,9 @@ constexpr std::array<Choice<Divergence>, 2> divergences{{
 constexpr Range between_0_and_1{0.0, 1.0, true, true};
 // A Gaussian a millionth or a million knot spacings wide is a slip, not a choice.
 constexpr Range knot_spacings{1e-6, 1e6};
-constexpr std::size_t max_photons = 10'000'000'000;  // hours of tracing and 1e12 bytes
-constexpr std::size_t max_knots = 1'000'000;         // beyond any solver's reach
-constexpr std::size_t min_knots = 4;                 // four points span a volume
+constexpr std::size_t max_photons = 500'000'000;  // 32 GB of them
+constexpr std::size_t max_knots = 5'000;          // matrices of 15 000 rows, 7 GB
+constexpr std::size_t min_knots = 4;              // four points span a volume
 constexpr std::size_t max_estimate_photons = 1'000'000;
 
 // Noise falls as n^-1/2; on the shipped scenes this many leave about the tolerance of noise
@@ -80,7 +80,7 @@ SolverSettings read_solver(const YamlNode& node) {
     solver.svd_cut = read_number(*key, between_0_and_1);
   }
   if (const auto* key = node.find("estimate_photons")) {
-    solver.estimate_photons = read_count(*key, 1, max_estimate_photons);
+    solver.estimate_photons = read_count(*key, 2, max_estimate_photons);
   }
   if (const auto* key = node.find("divergence")) {
     solver.divergence = read_choice(*key, divergences);

@@ -110,6 +110,31 @@ std::optional<Vec3> common_point(const Solid& a, const Solid& b, double toleranc
   return point_inside(b, std::get<TriangleMesh>(b.shape), a, tolerance);
 }
 
+// Whether an edge of the mesh crosses the surface of the other object away from its ends.
+bool pierces(const TriangleMesh& mesh, const Solid& other, double tolerance) {
+  for (const Triangle& triangle : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& a = mesh.vertices[triangle[i]];
+      const Vec3 along = mesh.vertices[triangle[(i + 1) % 3]] - a;
+      const double length = along.norm();
+      if (length <= 2.0 * tolerance) continue;
+      const Ray ray{a, along / length, length - tolerance};
+      const auto hit = other.caster.nearest(ray, other.index);
+      if (hit && hit->t > tolerance) return true;
+    }
+  return false;
+}
+
+// Whether a triangle comes nearer to the centre than the radius.
+bool reaches_into(const TriangleMesh& mesh, const Sphere& ball, double tolerance) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 nearest = nearest_point_on_triangle(ball.center, mesh.corner(t, 0),
+                                                   mesh.corner(t, 1), mesh.corner(t, 2));
+    if ((nearest - ball.center).norm() < ball.radius - tolerance) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void refuse_overlaps(const Scene& scene, const RayCaster& caster) {
@@ -136,6 +161,38 @@ void refuse_overlaps(const Scene& scene, const RayCaster& caster) {
           found->y(), found->z()));
     }
   }
+}
+
+std::vector<std::string> opaque_inclusions(const Scene& scene, const RayCaster& caster) {
+  const auto solid = [&](std::size_t i) {
+    const Shape& shape = scene.objects[i].shape;
+    return Solid{caster, static_cast<std::uint32_t>(i), shape, bounds(shape)};
+  };
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].translucent() == nullptr) continue;
+    const Solid wax = solid(i);
+    const double tolerance =
+        std::max(touching_fraction * wax.box.largest_extent(), caster.skip_distance());
+    for (std::size_t j = 0; j < scene.objects.size(); ++j) {
+      if (scene.objects[j].translucent() != nullptr) continue;
+      const Solid opaque = solid(j);
+      if (!boxes_meet(wax.box, opaque.box, tolerance)) continue;
+      const auto* mesh = std::get_if<TriangleMesh>(&opaque.shape);
+      // An open surface has no inside: its own points in the wax, and the wax's edges through it.
+      const auto common = mesh == nullptr ? common_point(wax, opaque, tolerance)
+                                          : point_inside(opaque, *mesh, wax, tolerance);
+      const auto* wax_mesh = std::get_if<TriangleMesh>(&wax.shape);
+      const bool pierced =
+          !common && mesh != nullptr &&
+          (wax_mesh != nullptr ? pierces(*wax_mesh, opaque, tolerance)
+                               : reaches_into(*mesh, std::get<Sphere>(wax.shape), tolerance));
+      if (common || pierced)
+        found.push_back(fmt::format("object '{}' reaches into '{}'", scene.objects[j].name,
+                                    scene.objects[i].name));
+    }
+  }
+  return found;
 }
 
 }  // namespace knotlight

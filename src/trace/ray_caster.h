@@ -37,8 +37,8 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  // The nearest surface met at a distance in (skip_distance(), t_max): a ray that starts on a surface
-  // does not meet it again.
+  // The nearest surface met at a distance in (skip_distance(), t_max): a ray that starts on a
+  // surface does not meet it again.
   std::optional<Hit> nearest(const Ray& ray) const;
   // The same against one object alone.
   std::optional<Hit> nearest(const Ray& ray, std::uint32_t object) const;
@@ -62,6 +62,9 @@ class RayCaster {
 
   // 1e-7 of the radius of the sphere around all shapes.
   double skip_distance() const;
+  // Surfaces nearer than this to each other are taken as touching by those who follow light: 50
+  // skip distances, since rays are traced in float.
+  double touching_distance() const { return 50.0 * skip_distance(); }
 
  private:
   struct Implementation;

@@ -175,6 +175,7 @@ TEST_F(CommandLine, WrongWords) {
   expect_bad_input(run("render"), "scene");
   expect_bad_input(run("render scene.yaml --threads -3"), "--threads");
   expect_bad_input(run("render scene.yaml --seed x"), "--seed");
+  expect_bad_input(run("render scene.yaml --seed -1"), "--seed");
   expect_bad_input(run("render scene.yaml --no-such-option"), "--no-such-option");
   expect_bad_input(run("render scene.yaml -o a.jpg"), ".exr or .png");
   expect_bad_input(run("render none.yaml"), "none.yaml");
@@ -213,19 +214,30 @@ TEST_F(CommandLine, EyeInsideAnObjectIsRefused) {
   expect_bad_input(run("render scene.yaml --set camera.from=[0.1,0,0]"), "camera.from");
 }
 
-TEST_F(CommandLine, WritingWhereOneCannotIsNotBadInput) {
-  const ProgramResult result = run("render scene.yaml -o no/such/folder/a.exr");
-  EXPECT_EQ(result.exit_code, 1) << result.err;
+TEST_F(CommandLine, OutputFoldersAreCheckedBeforeTheWork) {
+  expect_bad_input(run("render scene.yaml -o no/such/folder/a.exr"), "no/such/folder/a.exr");
+  expect_bad_input(run("render scene.yaml -o a.exr --json no/a.json"), "no/a.json");
+  EXPECT_FALSE(exists("a.exr"));
 }
 
-// SIGINT in the middle of a long run: exit code 130 and no file, old or half.
+// A link stays a link; what it points at is replaced.
+TEST_F(CommandLine, LinksAreFollowed) {
+  scratch_.write("real.json", "old");
+  std::filesystem::create_symlink("real.json", scratch_.folder() / "link.json");
+  run("info scene.yaml --json link.json");
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch_.folder() / "link.json"));
+  EXPECT_NE(read_file(scratch_.path("real.json")), "old");
+}
+
+// SIGINT in the middle of a long run: the program ends at once, with no file, old or half.
 TEST_F(CommandLine, CtrlCLeavesNoFile) {
   const std::string script = std::string("timeout --signal=INT --preserve-status 0.5 '") +
                              KNOTLIGHT_PROGRAM +
                              "' render scene.yaml -o a.exr --set solver.photons=500000000";
   scratch_.write("run.sh", script + "\n");
   const ProgramResult result = run_program("/bin/bash", "run.sh", scratch_.folder());
-  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.err.find("interrupted"), std::string::npos);
   for (const auto& entry : std::filesystem::directory_iterator(scratch_.folder()))
     EXPECT_NE(entry.path().extension(), ".exr");
 }

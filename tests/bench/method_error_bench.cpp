@@ -120,8 +120,8 @@ void sphere_rows(const Sweep& sweep) {
               Vec3(rho * std::cos(0.3 + 0.7854 * j), rho * std::sin(0.3 + 0.7854 * j), z)));
           exact.push_back(c.U_d[i]);
         }
-      print_row(fmt::format("sphere, sigma_t R = {}, albedo {}", c.sigma_t, c.albedo), knots,
-                compare(values, exact), solved);
+      print_row(fmt::format("sphere, sigma_t R = {}, albedo {}", c.sigma_t, c.albedo), sweep,
+                setting, compare(values, exact), solved);
     }
 }
 
@@ -140,7 +140,8 @@ void slab_rows(const Sweep& sweep) {
         values.push_back(solved.channel.U_d_at(Vec3(0.1, 0.2, 0.1 * i)));
         exact.push_back(slab.U_d(0.1 * i));
       }
-      print_row(fmt::format("slab, b = {}, albedo 0.99", b), knots, compare(values, exact), solved);
+      print_row(fmt::format("slab, b = {}, albedo 0.99", b), sweep, setting, compare(values, exact),
+                solved);
     }
 }
 

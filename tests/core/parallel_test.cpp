@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/errors.h"
 #include "core/progress.h"
 
 namespace knotlight {
@@ -35,17 +34,6 @@ TEST(Workers, PassesTheErrorOn) {
                                        if (chunk == 40) throw std::runtime_error("no");
                                      }),
                std::runtime_error);
-}
-
-TEST(Workers, StopsAtCtrlC) {
-  int done = 0;
-  EXPECT_THROW(Workers(1).for_chunks(100, 1,
-                                     [&](std::size_t, std::size_t, std::size_t) {
-                                       if (++done == 3) interrupt_requested = true;
-                                     }),
-               Interrupted);
-  interrupt_requested = false;
-  EXPECT_EQ(done, 3);
 }
 
 TEST(Stages, AddUpByNameInOrder) {
