@@ -15,7 +15,7 @@ class Workers {
   // Calls body(chunk, begin, end) once for each chunk of up to `chunk_size` of the indices 0..n-1.
   // The body must write only to what belongs to its chunk. Sums over chunks are to be taken in
   // chunk order afterwards; then results are the same bits for any thread count. The first
-  // exception thrown by a body is rethrown here; a pending Ctrl-C throws Interrupted.
+  // exception thrown by a body is rethrown here.
   void for_chunks(
       std::size_t n, std::size_t chunk_size,
       const std::function<void(std::size_t chunk, std::size_t begin, std::size_t end)>& body) const;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace knotlight {
@@ -39,6 +40,13 @@ struct BallOnFloor {
     surfaces.emplace_back(std::nullopt);
   }
 
+  // After the shapes have changed.
+  void rebuild() {
+    caster = std::make_unique<RayCaster>(
+        std::vector<const Shape*>{&scene.objects[0].shape, &scene.objects[1].shape});
+    surfaces[0]->grid = SurfaceGrid(scene.objects[0].shape, 8);
+  }
+
   Image render(int threads) const {
     Stages stages(false);
     Stage stage(stages, "picture", 1);
@@ -55,6 +63,22 @@ TEST(Picture, GlowAndFloorHaveTheirClosedForms) {
   EXPECT_NEAR(image.at(24, 20)[0], 1.0, 1e-12);
   EXPECT_NEAR(image.at(2, 2)[2], 0.8 * 3.0 / pi, 1e-12);
   EXPECT_NEAR(image.at(2, 2)[0], 0.2 * 3.0 / pi, 1e-12);
+}
+
+// Through an index-matched ball of optical thickness 1.01 along its diameter a sky of radiance 5 is
+// seen weakened by exp(-1.01); what the ball itself sends out stays as it was.
+TEST(Picture, IndexMatchedObjectsAreSeenThrough) {
+  BallOnFloor world(1.0);
+  auto& wax = std::get<TranslucentMaterial>(world.scene.objects[0].material);
+  wax.sigma_a = Spectrum::Constant(0.005);
+  wax.sigma_s = Spectrum::Constant(0.5);
+  world.scene.camera.from = Vec3(0, 0, -4);  // below the floor: sky all around
+  world.scene.camera.to = Vec3(0, 0, -8);
+  world.scene.objects[0].shape = Sphere{Vec3(0, 0, -8), 1.0};
+  world.rebuild();
+  const double dark = world.render(1).at(24, 20)[0];
+  world.scene.lights = {EnvironmentLight{Spectrum::Constant(5.0), nullptr}};
+  EXPECT_NEAR(world.render(1).at(24, 20)[0] - dark, 5.0 * std::exp(-1.01), 0.02);
 }
 
 // A refracting ball at normal incidence mirrors 4 % of what is behind the eye: a sky of radiance 5.
