@@ -7,8 +7,8 @@
 namespace knotlight {
 
 // Calls write(temporary_path) and renames the result to `path`. If write throws, or the rename
-// fails, no trace is left and `path` is as it was. The temporary keeps the extension of `path`. A link
-// is followed; what is there but no regular file (a pipe, a device) is written to directly.
+// fails, no trace is left and `path` is as it was. The temporary keeps the extension of `path`. A
+// link is followed; what is there but no regular file (a pipe, a device) is written to directly.
 void write_atomically(const std::string& path,
                       const std::function<void(const std::string& temporary)>& write);
 

@@ -89,7 +89,7 @@ struct SolverSettings {
   Method method = Method::automatic;
   Boundary boundary = Boundary::milne;
   std::optional<Exitance> exitance;
-  std::size_t photons = 3'000'000;        // emitted towards the translucent objects, per channel
+  std::size_t photons = 6'000'000;        // emitted towards the translucent objects, per channel
   std::optional<std::size_t> knots;       // on the boundary of each object
   bool jitter = true;                     // random point of each stratum, else its centre
   std::optional<double> shape_parameter;  // Gaussian width c, in mean knot spacings

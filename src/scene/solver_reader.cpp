@@ -48,7 +48,7 @@ constexpr std::size_t max_estimate_photons = 1'000'000;
 // Noise falls as n^-1/2; on the shipped scenes this many leave about the tolerance of noise
 // (docs/results/accuracy.md).
 std::size_t default_photons(double tolerance) {
-  constexpr double photons_at_one_per_cent = 3e6;
+  constexpr double photons_at_one_per_cent = 6e6;
   constexpr double fewest = 3e5, most = 3e7;
   const double wanted = photons_at_one_per_cent * std::pow(0.01 / tolerance, 2);
   return static_cast<std::size_t>(std::clamp(wanted, fewest, most));

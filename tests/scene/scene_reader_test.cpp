@@ -205,13 +205,13 @@ TEST(SceneReader, MendedMeshIsReportedWithItsPlace) {
       << scene.warnings[0];
 }
 
-// Photons left out: 3e6 (0.01 / tolerance)^2, between 3e5 and 3e7.
+// Photons left out: 6e6 (0.01 / tolerance)^2, between 3e5 and 3e7.
 TEST(SceneReader, PhotonsFollowTheTolerance) {
   const auto photons = [](const char* tolerance) {
     return read_text_scene(small_scene, {std::string("solver.tolerance=") + tolerance})
         .solver.photons;
   };
-  EXPECT_EQ(photons("0.02"), 750'000u);
+  EXPECT_EQ(photons("0.02"), 1'500'000u);
   EXPECT_EQ(photons("0.5"), 300'000u);
   EXPECT_EQ(photons("0.0001"), 30'000'000u);
 }
@@ -233,7 +233,7 @@ TEST(SceneReader, WhatIsLeftOutHasDefaults) {
   EXPECT_EQ(scene.solver.source, std::nullopt);
   EXPECT_EQ(scene.solver.exitance, std::nullopt);
   EXPECT_EQ(scene.solver.knots, std::nullopt);
-  EXPECT_EQ(scene.solver.photons, 3'000'000u);
+  EXPECT_EQ(scene.solver.photons, 6'000'000u);
   EXPECT_TRUE(scene.warnings.empty());
 }
 
