@@ -70,8 +70,8 @@ ElementMatrix mass_matrix(const Moments& moments) {
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j) {
       const auto p = corner_offset(i), q = corner_offset(j);
-      m(i, j) =
-          moments[static_cast<std::size_t>(p[0] + q[0] + 3 * (p[1] + q[1]) + 9 * (p[2] + q[2]))];
+      const int exponents = p[0] + q[0] + 3 * (p[1] + q[1]) + 9 * (p[2] + q[2]);
+      m(i, j) = moments[static_cast<std::size_t>(exponents)];
     }
   return m;
 }

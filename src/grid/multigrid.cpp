@@ -101,8 +101,10 @@ void Multigrid::cycle(std::size_t at, Workspace& work) const {
 
   static const std::array<ElementVector, 27> weights = [] {
     std::array<ElementVector, 27> w;
-    for (int c = 0; c < 27; ++c)
-      w[static_cast<std::size_t>(c)] = shape_functions(0.5 * Vec3(c % 3, c / 3 % 3, c / 9));
+    for (int c = 0; c < 27; ++c) {
+      const int i = c % 3, j = c / 3 % 3, k = c / 9;
+      w[static_cast<std::size_t>(c)] = shape_functions(0.5 * Vec3(i, j, k));
+    }
     return w;
   }();
   const Level& coarse = stages_[at + 1]->level;

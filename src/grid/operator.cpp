@@ -58,8 +58,8 @@ void GridOperator::find_runs() {
     const auto dof = [&](int dx, int dy, int dz) {
       const int cx = dx > 0, cy = dy > 0, cz = dz > 0;
       const int corner = dx + 1 - cx + 2 * (dy + 1 - cy) + 4 * (dz + 1 - cz);
-      const auto piece =
-          static_cast<std::size_t>(pieces[static_cast<std::size_t>(cx + 2 * cy + 4 * cz)]);
+      const int cell = cx + 2 * cy + 4 * cz;
+      const auto piece = static_cast<std::size_t>(pieces[static_cast<std::size_t>(cell)]);
       return level_.pieces[piece].dof[static_cast<std::size_t>(corner)];
     };
     std::array<std::int32_t, 9> rows;
@@ -139,8 +139,8 @@ void GridOperator::find_faces() {
           Face face;
           for (std::size_t c = 0; c < 4; ++c) {
             const auto& plane = in_plane[static_cast<std::size_t>(axis)];
-            const auto low =
-                static_cast<std::size_t>(((c & 1) ? plane[0] : 0) + ((c & 2) ? plane[1] : 0));
+            const auto low_corner = ((c & 1) ? plane[0] : 0) + ((c & 2) ? plane[1] : 0);
+            const auto low = static_cast<std::size_t>(low_corner);
             const std::size_t high = low + (std::size_t{1} << axis);
             face.dof[0][c] = a[low];
             face.dof[1][c] = a[high];

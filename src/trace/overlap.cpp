@@ -91,7 +91,7 @@ std::optional<Vec3> point_inside(const Solid& a, const TriangleMesh& mesh, const
       const std::uint32_t from = mesh.triangles[t][i];
       const std::uint32_t to = mesh.triangles[t][(i + 1) % 3];
       if (from > to) continue;  // its neighbour has the same edge the other way round
-      const auto found = edge_inside(mesh.vertices[from], mesh.vertices[to], b, tolerance);
+      auto found = edge_inside(mesh.vertices[from], mesh.vertices[to], b, tolerance);
       if (found) return found;
     }
   }
@@ -105,7 +105,7 @@ std::optional<Vec3> common_point(const Solid& a, const Solid& b, double toleranc
     return common_point(*sphere_a, *sphere_b, tolerance);
   if (sphere_a != nullptr) return common_point(*sphere_a, b, tolerance);
   if (sphere_b != nullptr) return common_point(*sphere_b, a, tolerance);
-  const auto found = point_inside(a, std::get<TriangleMesh>(a.shape), b, tolerance);
+  auto found = point_inside(a, std::get<TriangleMesh>(a.shape), b, tolerance);
   if (found) return found;
   return point_inside(b, std::get<TriangleMesh>(b.shape), a, tolerance);
 }
