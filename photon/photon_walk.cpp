@@ -9,11 +9,6 @@
 namespace knotlight {
 namespace {
 
-// Surfaces closer than this many skip distances count as touching, and a ray from inside a medium
-// starts this far behind its photon: well above the rounding of the ray caster's single-precision
-// search, far below any modelled gap.
-constexpr double touch_in_skips = 50.0;
-
 // A photon that has survived this many events is played for double or nothing: unbiased, and no
 // path is endless. So rare (it takes thousands of mean free paths without absorption) that the
 // doubled power does not show in the variance.
@@ -50,7 +45,7 @@ struct PhotonWalk::Flight {
 
 PhotonWalk::PhotonWalk(const Scene& scene, const RayCaster& caster, int channel,
                        const Options& options)
-    : caster_(caster), options_(options), touch_(touch_in_skips * caster.skip_distance()) {
+    : caster_(caster), options_(options), touch_(caster.touching_distance()) {
   for (const Object& object : scene.objects) {
     Item item{false, 0.0, 0.0, 0.0, 1.0, bounds(object.shape), {}, {}};
     if (const TranslucentMaterial* material = object.translucent()) {

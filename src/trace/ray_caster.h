@@ -62,8 +62,9 @@ class RayCaster {
 
   // 1e-7 of the radius of the sphere around all shapes.
   double skip_distance() const;
-  // Surfaces nearer than this to each other are taken as touching by those who follow light: 50
-  // skip distances, since rays are traced in float.
+  // Surfaces nearer than this to each other count as touching for those who follow light, and a ray
+  // from inside a medium starts this far behind its photon: well above the rounding of the search
+  // in float, far below any modelled gap.
   double touching_distance() const { return 50.0 * skip_distance(); }
 
  private:
