@@ -11,8 +11,8 @@
 
 namespace knotlight {
 
-// One object in one colour channel. Errors are relative to the size of U_d on the surface: its rms with
-// the grid method, its largest value with bkm_thesis, whose bound is one on the largest error.
+// One object in one colour channel. Errors are relative to the size of U_d on the surface: its rms
+// with the grid method, its largest value with bkm_thesis, whose bound is one on the largest error.
 struct ChannelReport {
   double lambda = 0.0;  // 1/length
   double k = 0.0;       // length
