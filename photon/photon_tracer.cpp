@@ -30,7 +30,9 @@ TraceResult trace_photons(const Scene& scene, const RayCaster& caster, int chann
                         : options.orders == Orders::reentering ? reentering_share
                                                                : 1.0;
   const PhotonWalk walk(scene, caster, channel,
-                        {follow, options.store, options.orders == Orders::reentering});
+                        {follow, options.store,
+                         options.orders == Orders::reentering || options.orders == Orders::returned,
+                         options.orders == Orders::returned});
   if (!walk.target()) return result;
   const Emitter emitter(scene.lights, channel, *walk.target(), walk.scene_bounds());
   if (!emitter.any() || options.photons == 0) return result;

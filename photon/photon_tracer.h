@@ -19,9 +19,11 @@ struct TracerOptions {
   // first: a path ends at its first interaction, all that the source of a single convex object
   // needs. reentering: one path in four goes on, with four times the power, so that light that
   // leaves an object and meets it, or another one, again is counted too; first interactions alone
-  // are stored. all: until absorbed or out of the scene; for audits and for checking the diffusion
+  // are stored. returned: every path goes on, and of what reentering would store only light that
+  // was scattered before it entered again: the part that expected values (expected_values.h) leave
+  // out. all: until absorbed or out of the scene; for audits and for checking the diffusion
   // solution.
-  enum class Orders { first, reentering, all } orders = Orders::first;
+  enum class Orders { first, reentering, returned, all } orders = Orders::first;
   bool store = true;  // keep the volume photons (an audit alone does not need them)
 };
 

@@ -235,7 +235,8 @@ void PhotonWalk::interact(Flight& flight, Rng& rng, WalkRecord& record) const {
   }
   flight.order += 1;
   tally.interactions += flight.power;
-  if (options_.store && (flight.order == 1 || !options_.store_first_only))
+  if (options_.store && (flight.order == 1 || !options_.store_first_only) &&
+      (flight.followed || !options_.store_returned_only))
     record.photons[flight.object].push_back(
         {flight.position, flight.direction, flight.power, flight.order});
   if (!flight.followed && options_.follow_probability < 1.0) {

@@ -34,6 +34,9 @@ class PhotonWalk {
     double follow_probability = 0.0;
     bool store = true;
     bool store_first_only = false;  // of each stay in an object
+    // Not the first interaction ever of a path: what is stored is light that was scattered, left an
+    // object and came back.
+    bool store_returned_only = false;
   };
 
   // `scene` and `caster` must outlive the walk; caster was built from scene.objects in order.

@@ -7,7 +7,7 @@
 #include "core/fresnel.h"
 #include "core/rng.h"
 #include "render/camera.h"
-#include "render/direct_light.h"
+#include "trace/direct_light.h"
 
 namespace knotlight {
 namespace {

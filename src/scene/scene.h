@@ -81,6 +81,10 @@ enum class SourceModel { photon_map, irradiance_sampling, irradiance_thesis, bou
 enum class Method { automatic, bkm_thesis, bkm, mfs, lbkm, grid };
 enum class Exitance { gather, p1, lambert, mean_intensity };
 enum class Divergence { identity, differentiated };
+// Where light that has not been scattered yet is counted: at points along each ray inside the
+// object, weighted by what they are expected to receive, or at one random collision per photon.
+enum class Deposits { expected_values, collisions };
+enum class DensityEstimator { nearest, radius, kernel };
 
 // Keys left out of the scene stay at these defaults; std::nullopt = chosen from the scene.
 struct SolverSettings {
@@ -96,6 +100,10 @@ struct SolverSettings {
   std::optional<double> svd_cut;          // relative to the largest singular value
   std::optional<std::size_t> estimate_photons;  // nearest photons in a density estimate
   Divergence divergence = Divergence::identity;
+  std::optional<Deposits> deposits;
+  bool similarity = false;  // replace (sigma_s, g) by ((1 - g) sigma_s, 0)
+  DensityEstimator estimator = DensityEstimator::nearest;
+  std::optional<double> estimate_radius;  // of the ball of a density estimate, mean free paths
 };
 
 struct Scene {

@@ -10,9 +10,9 @@ namespace {
 // The words of the format. Those marked false are part of it, but not available in this version.
 constexpr std::array<Choice<SourceModel>, 4> source_models{{
     {"photon_map", SourceModel::photon_map},
-    {"irradiance_sampling", SourceModel::irradiance_sampling, false},
-    {"irradiance_thesis", SourceModel::irradiance_thesis, false},
-    {"boundary_flux", SourceModel::boundary_flux, false},
+    {"irradiance_sampling", SourceModel::irradiance_sampling},
+    {"irradiance_thesis", SourceModel::irradiance_thesis},
+    {"boundary_flux", SourceModel::boundary_flux},
 }};
 constexpr std::array<Choice<Method>, 6> methods{{
     {"auto", Method::automatic},
@@ -36,10 +36,21 @@ constexpr std::array<Choice<Divergence>, 2> divergences{{
     {"identity", Divergence::identity},
     {"differentiated", Divergence::differentiated},
 }};
+constexpr std::array<Choice<Deposits>, 2> deposit_rules{{
+    {"expected_values", Deposits::expected_values},
+    {"collisions", Deposits::collisions},
+}};
+constexpr std::array<Choice<DensityEstimator>, 3> estimators{{
+    {"nearest", DensityEstimator::nearest},
+    {"radius", DensityEstimator::radius},
+    {"kernel", DensityEstimator::kernel},
+}};
 
 constexpr Range between_0_and_1{0.0, 1.0, true, true};
 // A Gaussian a millionth or a million knot spacings wide is a slip, not a choice.
 constexpr Range knot_spacings{1e-6, 1e6};
+// A ball of a thousand mean free paths averages over any object.
+constexpr Range estimate_radii{1e-6, 1e3};
 constexpr std::size_t max_photons = 500'000'000;  // 32 GB of them
 constexpr std::size_t max_knots = 5'000;          // matrices of 15 000 rows, 7 GB
 constexpr std::size_t min_knots = 4;              // four points span a volume
@@ -58,7 +69,8 @@ std::size_t default_photons(double tolerance) {
 
 SolverSettings read_solver(const YamlNode& node) {
   check_keys(node, {"tolerance", "source", "method", "boundary", "exitance", "photons", "knots",
-                    "jitter", "shape_parameter", "svd_cut", "estimate_photons", "divergence"});
+                    "jitter", "shape_parameter", "svd_cut", "estimate_photons", "divergence",
+                    "deposits", "similarity", "estimator", "estimate_radius"});
   SolverSettings solver;
   if (const auto* key = node.find("tolerance")) {
     solver.tolerance = read_number(*key, between_0_and_1);
@@ -84,6 +96,12 @@ SolverSettings read_solver(const YamlNode& node) {
   }
   if (const auto* key = node.find("divergence")) {
     solver.divergence = read_choice(*key, divergences);
+  }
+  if (const auto* key = node.find("deposits")) solver.deposits = read_choice(*key, deposit_rules);
+  if (const auto* key = node.find("similarity")) solver.similarity = read_bool(*key);
+  if (const auto* key = node.find("estimator")) solver.estimator = read_choice(*key, estimators);
+  if (const auto* key = node.find("estimate_radius")) {
+    solver.estimate_radius = read_number(*key, estimate_radii);
   }
   return solver;
 }

@@ -1,4 +1,4 @@
-#include "render/direct_light.h"
+#include "trace/direct_light.h"
 
 #include <gtest/gtest.h>
 
