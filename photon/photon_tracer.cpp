@@ -33,8 +33,9 @@ TraceResult trace_photons(const Scene& scene, const RayCaster& caster, int chann
                         {follow, options.store,
                          options.orders == Orders::reentering || options.orders == Orders::returned,
                          options.orders == Orders::returned});
-  if (!walk.target()) return result;
-  const Emitter emitter(scene.lights, channel, *walk.target(), walk.scene_bounds());
+  if (!walk.passage().target()) return result;
+  const Emitter emitter(scene.lights, channel, *walk.passage().target(),
+                        walk.passage().scene_bounds());
   if (!emitter.any() || options.photons == 0) return result;
 
   const std::size_t batch_size =

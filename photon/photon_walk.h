@@ -1,12 +1,12 @@
 // The life of one photon: surface by surface and interaction by interaction.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/rng.h"
 #include "photon/emission.h"
 #include "photon/energy_audit.h"
+#include "photon/passage.h"
 #include "photon/volume_photon.h"
 #include "scene/scene.h"
 #include "trace/ray_caster.h"
@@ -25,8 +25,6 @@ struct WalkRecord {
 // - inside, the free flight has density sigma_t exp(-sigma_t s) [V09 6.18]; at an interaction the
 //   albedo decides whether the photon goes on, the phase function where to,
 // - diffuse objects absorb, also inside a translucent one.
-// Surfaces of two objects that touch are met in the order they must be: own surface, then the
-// other's.
 class PhotonWalk {
  public:
   struct Options {
@@ -42,38 +40,21 @@ class PhotonWalk {
   // `scene` and `caster` must outlive the walk; caster was built from scene.objects in order.
   PhotonWalk(const Scene& scene, const RayCaster& caster, int channel, const Options& options);
 
-  // Bounds of the translucent objects; nothing if there are none.
-  const std::optional<Bounds>& target() const { return target_; }
-  const Bounds& scene_bounds() const { return scene_bounds_; }
+  const Passage& passage() const { return passage_; }
 
   // Follows a photon (power is what it carries) to its end and adds to the record, whose lists have
   // one entry per scene object.
   void run(const EmittedPhoton& start, Rng& rng, WalkRecord& record) const;
 
  private:
-  struct Item {  // a scene object
-    bool translucent;
-    double sigma_t, albedo, g, ior;
-    Bounds bounds;
-    std::vector<std::uint32_t> touching;         // objects that may touch it
-    std::vector<std::uint32_t> touching_opaque;  // the diffuse ones among them
-  };
   struct Flight;
 
-  std::optional<Hit> contact(const Vec3& p, const Vec3& d, std::uint32_t object) const;
-  std::optional<Hit> next_outside(const Flight& flight) const;
-  std::optional<Hit> next_inside(const Flight& flight, double distance) const;
-  std::optional<std::uint32_t> object_around(const Vec3& p) const;
   void walk_outside(Flight& flight, Rng& rng, WalkRecord& record) const;
   void walk_inside(Flight& flight, Rng& rng, WalkRecord& record) const;
   void interact(Flight& flight, Rng& rng, WalkRecord& record) const;
 
-  const RayCaster& caster_;
+  Passage passage_;
   Options options_;
-  std::vector<Item> items_;
-  std::optional<Bounds> target_;
-  Bounds scene_bounds_;
-  double touch_;  // length: surfaces closer than this may touch
 };
 
 }  // namespace knotlight

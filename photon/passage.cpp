@@ -1,0 +1,102 @@
+#include "photon/passage.h"
+
+namespace knotlight {
+namespace {
+
+bool contains(const Bounds& b, const Vec3& p, double slack) {
+  return (p.array() >= b.lo.array() - slack).all() && (p.array() <= b.hi.array() + slack).all();
+}
+
+bool overlap(const Bounds& a, const Bounds& b, double slack) {
+  return (a.lo.array() <= b.hi.array() + slack).all() &&
+         (b.lo.array() <= a.hi.array() + slack).all();
+}
+
+}  // namespace
+
+Passage::Passage(const Scene& scene, const RayCaster& caster, int channel)
+    : caster_(caster), touch_(caster.touching_distance()) {
+  for (const Object& object : scene.objects) {
+    Item item{false, 0.0, 0.0, 0.0, 1.0, bounds(object.shape), {}, {}};
+    if (const TranslucentMaterial* material = object.translucent()) {
+      const Medium medium = material->medium(channel);
+      item.translucent = true;
+      item.sigma_t = medium.sigma_t();
+      item.albedo = medium.albedo();
+      item.g = medium.g;
+      item.ior = medium.ior;
+      if (!target_) target_.emplace();
+      target_->extend(item.bounds.lo);
+      target_->extend(item.bounds.hi);
+    }
+    scene_bounds_.extend(item.bounds.lo);
+    scene_bounds_.extend(item.bounds.hi);
+    items_.push_back(std::move(item));
+  }
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    for (std::uint32_t j = 0; j < items_.size(); ++j) {
+      if (i == j || !overlap(items_[i].bounds, items_[j].bounds, touch_)) continue;
+      items_[i].touching.push_back(j);
+      if (!items_[j].translucent) items_[i].touching_opaque.push_back(j);
+    }
+  }
+}
+
+std::optional<std::uint32_t> Passage::object_around(const Vec3& p) const {
+  for (std::uint32_t i = 0; i < items_.size(); ++i)
+    if (items_[i].translucent && contains(items_[i].bounds, p, 0.0) && caster_.inside(p, i))
+      return i;
+  return std::nullopt;
+}
+
+// Where the ray through p along d meets `object` within the touching distance of p, on either side:
+// what a ray that starts at p would skip.
+std::optional<Hit> Passage::contact(const Vec3& p, const Vec3& d, std::uint32_t object) const {
+  return caster_.nearest({p - touch_ * d, d, 2.0 * touch_}, object);
+}
+
+// Light that leaves A where B touches it meets B's surface there;
+// an opaque surface that touches a translucent one shields it from outside.
+std::optional<Hit> Passage::next_outside(const LightRay& light) const {
+  if (light.on_surface) {
+    for (const std::uint32_t other : items_[light.object].touching_opaque)
+      if (auto hit = contact(light.position, light.direction, other)) return hit;
+    for (const std::uint32_t other : items_[light.object].touching) {
+      auto hit = contact(light.position, light.direction, other);
+      if (hit && light.direction.dot(hit->normal) < 0.0) return hit;
+    }
+  }
+  auto hit = caster_.nearest(light.ray());
+  if (hit)
+    for (const std::uint32_t other : items_[hit->object].touching_opaque)
+      if (auto shield = contact(hit->position, light.direction, other)) return shield;
+  return hit;
+}
+
+std::optional<Hit> Passage::next_inside(const LightRay& light, double distance) const {
+  Ray ray = light.ray(distance);
+  if (!light.on_surface) {
+    // From the interior the search starts behind the photon, or it would skip a surface just ahead.
+    ray.origin -= touch_ * light.direction;
+    ray.t_max += touch_;
+  }
+  auto hit = caster_.nearest(ray);
+  if (hit && !light.on_surface && hit->t <= touch_) {  // that surface lies behind the photon
+    ray = light.ray(distance);
+    hit = caster_.nearest(ray);
+  }
+  if (!hit || hit->object == light.object) return hit;
+
+  Ray to_own = ray;
+  to_own.t_max += touch_;
+  const auto own = caster_.nearest(to_own, light.object);
+  const bool before_own = !own || hit->t < own->t - touch_;
+  if (!items_[hit->object].translucent && before_own) return hit;
+  return own && own->t < ray.t_max ? own : std::nullopt;
+}
+
+bool Passage::within_bounds(const Vec3& p, std::uint32_t object) const {
+  return contains(items_[object].bounds, p, touch_);
+}
+
+}  // namespace knotlight
