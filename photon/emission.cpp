@@ -35,11 +35,11 @@ double Emitter::Cone::solid_angle() const {
   return 2.0 * pi * cosine_max_deficit;
 }
 
-Emitter::Emitter(const std::vector<Light>& lights, int channel, const Bounds& target,
+Emitter::Emitter(const std::vector<Light>& lights, int channel, const Sphere& target,
                  const Bounds& scene_bounds)
     : channel_(channel),
-      center_(target.center()),
-      radius_(target.radius()),
+      center_(target.center),
+      radius_(target.radius),
       scene_center_(scene_bounds.center()),
       scene_radius_(scene_sphere_slack * scene_bounds.radius()) {
   for (const Light& light : lights) {
@@ -50,19 +50,24 @@ Emitter::Emitter(const std::vector<Light>& lights, int channel, const Bounds& ta
 }
 
 EmittedPhoton Emitter::sample(Rng& rng) const {
-  double u = rng.uniform() * total_;
-  const Source* chosen = &sources_.back();  // also if rounding carries u beyond the last
-  for (const Source& source : sources_) {
-    if (u < source.power) {
-      chosen = &source;
-      break;
-    }
-    u -= source.power;
-  }
-  EmittedPhoton photon =
-      std::visit([&](const auto& l) { return sample_light(l, rng); }, *chosen->light);
-  photon.power *= total_ / chosen->power;
+  double x = rng.uniform() * total_;
+  std::size_t light = 0;
+  while (light + 1 < sources_.size() && x >= sources_[light].power) x -= sources_[light++].power;
+  std::array<double, 4> u{};
+  for (int i = 0; i < dimensions(light); ++i) u[static_cast<std::size_t>(i)] = rng.uniform();
+  EmittedPhoton photon = ray(light, u);
+  photon.power *= total_ / sources_[light].power;
   return photon;
+}
+
+int Emitter::dimensions(std::size_t light) const {
+  const Light& l = *sources_[light].light;
+  return std::holds_alternative<PointLight>(l) || std::holds_alternative<DirectionalLight>(l) ? 2
+                                                                                              : 4;
+}
+
+EmittedPhoton Emitter::ray(std::size_t light, const std::array<double, 4>& u) const {
+  return std::visit([&](const auto& l) { return ray_of(l, u); }, *sources_[light].light);
 }
 
 Emitter::Cone Emitter::cone_from(const Vec3& p) const {
@@ -86,9 +91,8 @@ Vec3 Emitter::start(const Vec3& origin, const Vec3& direction) const {
 
 // A point of the disc that faces `direction` and covers the target, moved back out of the scene.
 // Density 1/(pi radius^2) per area normal to the direction.
-Vec3 Emitter::start_of_parallel_ray(const Vec3& direction, Rng& rng) const {
-  const double u = rng.uniform();
-  const Eigen::Vector2d p = radius_ * sample_disc(u, rng.uniform());
+Vec3 Emitter::start_of_parallel_ray(const Vec3& direction, double u, double v) const {
+  const Eigen::Vector2d p = radius_ * sample_disc(u, v);
   const double back = (center_ - scene_center_).norm() + scene_radius_;
   return center_ + Frame(direction).to_world({p.x(), p.y(), -back});
 }
@@ -97,11 +101,9 @@ double Emitter::power_estimate(const PointLight& light) const {
   return light.intensity[channel_] * cone_from(light.position).solid_angle();
 }
 
-EmittedPhoton Emitter::sample_light(const PointLight& light, Rng& rng) const {
+EmittedPhoton Emitter::ray_of(const PointLight& light, const std::array<double, 4>& u) const {
   const Cone cone = cone_from(light.position);
-  const double u = rng.uniform();
-  const Vec3 d =
-      Frame(cone.axis).to_world(sample_narrow_cone(u, rng.uniform(), cone.cosine_max_deficit));
+  const Vec3 d = Frame(cone.axis).to_world(sample_narrow_cone(u[0], u[1], cone.cosine_max_deficit));
   return {start(light.position, d), d, light.intensity[channel_] * cone.solid_angle()};
 }
 
@@ -109,8 +111,8 @@ double Emitter::power_estimate(const DirectionalLight& light) const {
   return light.irradiance[channel_] * pi * radius_ * radius_;
 }
 
-EmittedPhoton Emitter::sample_light(const DirectionalLight& light, Rng& rng) const {
-  const Vec3 origin = start_of_parallel_ray(light.direction, rng);
+EmittedPhoton Emitter::ray_of(const DirectionalLight& light, const std::array<double, 4>& u) const {
+  const Vec3 origin = start_of_parallel_ray(light.direction, u[0], u[1]);
   return {origin, light.direction, light.irradiance[channel_] * pi * radius_ * radius_};
 }
 
@@ -133,22 +135,20 @@ double Emitter::power_estimate(const AreaLight& light) const {
   return light.radiance[channel_] * light.area() * sum / (area_estimate_grid * area_estimate_grid);
 }
 
-EmittedPhoton Emitter::sample_light(const AreaLight& light, Rng& rng) const {
-  const double a = 2.0 * rng.uniform() - 1.0;
-  const double b = 2.0 * rng.uniform() - 1.0;
+EmittedPhoton Emitter::ray_of(const AreaLight& light, const std::array<double, 4>& u) const {
+  const double a = 2.0 * u[0] - 1.0;
+  const double b = 2.0 * u[1] - 1.0;
   const Vec3 p = light.center + a * light.u + b * light.v;
   const Vec3 n = light.normal();
   const double radiosity = light.radiance[channel_] * light.area();  // W/sr at the normal
-  const double u = rng.uniform();
-  const double v = rng.uniform();
   // The narrower of the two densities wastes fewer rays; which one depends on p alone, so either
   // way the mean is right.
   const Cone cone = cone_from(p);
   if (cone.solid_angle() >= pi) {
-    const Vec3 d = Frame(n).to_world(sample_cosine_hemisphere(u, v));
+    const Vec3 d = Frame(n).to_world(sample_cosine_hemisphere(u[2], u[3]));
     return {start(p, d), d, radiosity * pi};
   }
-  const Vec3 d = Frame(cone.axis).to_world(sample_narrow_cone(u, v, cone.cosine_max_deficit));
+  const Vec3 d = Frame(cone.axis).to_world(sample_narrow_cone(u[2], u[3], cone.cosine_max_deficit));
   return {start(p, d), d, radiosity * std::max(0.0, n.dot(d)) * cone.solid_angle()};
 }
 
@@ -169,19 +169,17 @@ double Emitter::power_estimate(const EnvironmentLight& light) const {
   return tint * disc * sum / (map_estimate_grid * map_estimate_grid);
 }
 
-EmittedPhoton Emitter::sample_light(const EnvironmentLight& light, Rng& rng) const {
+EmittedPhoton Emitter::ray_of(const EnvironmentLight& light, const std::array<double, 4>& u) const {
   const double disc = pi * radius_ * radius_;
   const double tint = light.radiance[channel_];
-  const double u = rng.uniform();
-  const double v = rng.uniform();
   if (!light.map) {
-    const Vec3 d = sample_sphere(u, v);
-    return {start_of_parallel_ray(d, rng), d, tint * 4.0 * pi * disc};
+    const Vec3 d = sample_sphere(u[0], u[1]);
+    return {start_of_parallel_ray(d, u[2], u[3]), d, tint * 4.0 * pi * disc};
   }
-  const EnvironmentMap::Sample s = light.map->sample(u, v);
+  const EnvironmentMap::Sample s = light.map->sample(u[0], u[1]);
   const double radiance = tint * light.map->radiance(s.direction)[channel_];
   const Vec3 d = -s.direction;
-  return {start_of_parallel_ray(d, rng), d, radiance / s.pdf * disc};
+  return {start_of_parallel_ray(d, u[2], u[3]), d, radiance / s.pdf * disc};
 }
 
 }  // namespace knotlight

@@ -1,6 +1,7 @@
 // Photons as they leave the lights, aimed at the sphere around all translucent objects.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/rng.h"
@@ -22,15 +23,28 @@ struct EmittedPhoton {
 // the colour and the interpolation.
 class Emitter {
  public:
-  // Target: the sphere around `target`. scene_bounds: of all that can be in the way (contains
-  // `target`); rays from infinity and from lights outside start at the sphere around it.
+  // target: around all that is to be lit. scene_bounds: of all that can be in the way (contains
+  // what is to be lit); rays from infinity and from lights outside start at the sphere around it.
   // `lights` must outlive the emitter.
-  Emitter(const std::vector<Light>& lights, int channel, const Bounds& target,
+  Emitter(const std::vector<Light>& lights, int channel, const Sphere& target,
           const Bounds& scene_bounds);
 
   // False if no light sends anything.
   bool any() const { return total_ > 0.0; }
   EmittedPhoton sample(Rng& rng) const;
+
+  // The same light by light, for those who choose the numbers themselves. Lights that send nothing
+  // do not count.
+  std::size_t lights() const { return sources_.size(); }
+  double share(std::size_t light) const {
+    return sources_[light].power / total_;
+  }  // of total power
+  // How many uniform numbers a ray of the light takes, 2 or 4: those of one dimension have to be
+  // independent of the others only.
+  int dimensions(std::size_t light) const;
+  // The ray of `light` for the numbers u in [0, 1); its power is what it would carry as the only
+  // ray of this light.
+  EmittedPhoton ray(std::size_t light, const std::array<double, 4>& u) const;
 
  private:
   struct Source {
@@ -46,17 +60,16 @@ class Emitter {
 
   Cone cone_from(const Vec3& p) const;
   Vec3 start(const Vec3& origin, const Vec3& direction) const;
-  Vec3 start_of_parallel_ray(const Vec3& direction, Rng& rng) const;
+  Vec3 start_of_parallel_ray(const Vec3& direction, double u, double v) const;
 
   double power_estimate(const PointLight& light) const;
   double power_estimate(const DirectionalLight& light) const;
   double power_estimate(const AreaLight& light) const;
   double power_estimate(const EnvironmentLight& light) const;
-  // A ray with its power before the choice among lights is accounted for.
-  EmittedPhoton sample_light(const PointLight& light, Rng& rng) const;
-  EmittedPhoton sample_light(const DirectionalLight& light, Rng& rng) const;
-  EmittedPhoton sample_light(const AreaLight& light, Rng& rng) const;
-  EmittedPhoton sample_light(const EnvironmentLight& light, Rng& rng) const;
+  EmittedPhoton ray_of(const PointLight& light, const std::array<double, 4>& u) const;
+  EmittedPhoton ray_of(const DirectionalLight& light, const std::array<double, 4>& u) const;
+  EmittedPhoton ray_of(const AreaLight& light, const std::array<double, 4>& u) const;
+  EmittedPhoton ray_of(const EnvironmentLight& light, const std::array<double, 4>& u) const;
 
   std::vector<Source> sources_;
   double total_ = 0.0;  // W, sum of the estimates

@@ -16,6 +16,7 @@ bool overlap(const Bounds& a, const Bounds& b, double slack) {
 
 Passage::Passage(const Scene& scene, const RayCaster& caster, int channel)
     : caster_(caster), touch_(caster.touching_distance()) {
+  std::vector<const Shape*> targets;
   for (const Object& object : scene.objects) {
     Item item{false, 0.0, 0.0, 0.0, 1.0, bounds(object.shape), {}, {}};
     if (const TranslucentMaterial* material = object.translucent()) {
@@ -25,14 +26,13 @@ Passage::Passage(const Scene& scene, const RayCaster& caster, int channel)
       item.albedo = medium.albedo();
       item.g = medium.g;
       item.ior = medium.ior;
-      if (!target_) target_.emplace();
-      target_->extend(item.bounds.lo);
-      target_->extend(item.bounds.hi);
+      targets.push_back(&object.shape);
     }
     scene_bounds_.extend(item.bounds.lo);
     scene_bounds_.extend(item.bounds.hi);
     items_.push_back(std::move(item));
   }
+  if (!targets.empty()) target_ = sphere_around(targets);
   for (std::size_t i = 0; i < items_.size(); ++i) {
     for (std::uint32_t j = 0; j < items_.size(); ++j) {
       if (i == j || !overlap(items_[i].bounds, items_[j].bounds, touch_)) continue;

@@ -41,8 +41,8 @@ class Passage {
   Passage(const Scene& scene, const RayCaster& caster, int channel);
 
   const Item& item(std::uint32_t object) const { return items_[object]; }
-  // Bounds of the translucent objects; nothing if there are none.
-  const std::optional<Bounds>& target() const { return target_; }
+  // A sphere around the translucent objects; nothing if there are none.
+  const std::optional<Sphere>& target() const { return target_; }
   const Bounds& scene_bounds() const { return scene_bounds_; }
 
   // The translucent object that p, where a light starts, lies in.
@@ -60,7 +60,7 @@ class Passage {
 
   const RayCaster& caster_;
   std::vector<Item> items_;
-  std::optional<Bounds> target_;
+  std::optional<Sphere> target_;
   Bounds scene_bounds_;
   double touch_;  // length: surfaces closer than this may touch
 };

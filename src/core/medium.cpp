@@ -40,4 +40,12 @@ double DiffusionCoefficients::leaving_flux(double U_d) const {
   return 2.0 * pi * U_d / A;
 }
 
+double DiffusionCoefficients::boundary_flux_data(double entered) const {
+  return 0.5 * (1.0 + A) * entered / pi;
+}
+
+double DiffusionCoefficients::boundary_flux_U_ri(double entered) {
+  return entered / (2.0 * pi);
+}
+
 }  // namespace knotlight

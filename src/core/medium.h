@@ -22,6 +22,8 @@ struct Medium {
   double albedo() const { return sigma_s / sigma_t(); }              // 0..1
   double reduced_albedo() const { return (1.0 - g) * sigma_s / sigma_tr(); }  // 0..1
   double lambda() const;  // diffusion exponent, 1/length
+  // The isotropic medium of the same diffusion coefficients: (sigma_s, g) -> ((1 - g) sigma_s, 0).
+  Medium similar() const { return {sigma_a, (1.0 - g) * sigma_s, 0.0, ior, emission}; }
 };
 
 // lap U_d - lambda^2 U_d = f,  U_d + k dU_d/dn = (A / (2 pi sigma_tr)) Q_ri . n,  n outward.
@@ -39,6 +41,10 @@ struct DiffusionCoefficients {
   double robin_data(double Q_ri_dot_n) const;
   // Flux leaving through the surface, W/length^2, from U_d there: F_n = 2 pi U_d / A.
   double leaving_flux(double U_d) const;
+  // The model that takes light as diffuse from the moment it enters (entered = (1 - R_F) E,
+  // W/length^2): right-hand side of the Robin condition for U = U_ri + U_d, and U_ri on the surface.
+  double boundary_flux_data(double entered) const;
+  static double boundary_flux_U_ri(double entered);
 };
 
 DiffusionCoefficients diffusion_coefficients(const Medium& medium, Boundary boundary);

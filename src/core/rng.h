@@ -14,6 +14,10 @@ enum class Stream : std::uint64_t {
   check_points,
   volume_points,
   check_depths,
+  low_discrepancy,
+  surface_events,
+  irradiance_points,
+  irradiance_rays,
   tests,
 };
 

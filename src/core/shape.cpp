@@ -127,6 +127,26 @@ Bounds bounds(const Shape& shape) {
           sphere.center + Vec3::Constant(sphere.radius)};
 }
 
+Sphere sphere_around(const std::vector<const Shape*>& shapes) {
+  Bounds box;
+  for (const Shape* shape : shapes) {
+    const Bounds own = bounds(*shape);
+    box.extend(own.lo);
+    box.extend(own.hi);
+  }
+  Sphere around{box.center(), 0.0};
+  for (const Shape* shape : shapes) {
+    if (const auto* sphere = std::get_if<Sphere>(shape)) {
+      around.radius =
+          std::max(around.radius, (sphere->center - around.center).norm() + sphere->radius);
+    } else {
+      for (const Vec3& vertex : std::get<TriangleMesh>(*shape).vertices)
+        around.radius = std::max(around.radius, (vertex - around.center).norm());
+    }
+  }
+  return around;
+}
+
 double surface_area(const Shape& shape) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return surface_area(*mesh);
   const double r = std::get<Sphere>(shape).radius;

@@ -22,6 +22,9 @@ struct SurfacePoint {
 };
 
 Bounds bounds(const Shape& shape);
+// A sphere that holds all the shapes, about the centre of the box around them; the exact one for a
+// single sphere. For meshes not always the smallest.
+Sphere sphere_around(const std::vector<const Shape*>& shapes);
 double surface_area(const Shape& shape);
 double volume(const Shape& shape);
 

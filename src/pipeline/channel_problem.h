@@ -9,7 +9,7 @@
 
 #include "core/medium.h"
 #include "core/parallel.h"
-#include "pipeline/photon_halves.h"
+#include "pipeline/incident_light.h"
 #include "pipeline/sample_points.h"
 #include "scene/scene.h"
 #include "trace/ray_caster.h"
@@ -19,11 +19,13 @@ namespace knotlight {
 struct ObjectGrids;  // solve_grid.h
 
 struct ChannelProblem {
+  const Scene& scene;
   const Shape& shape;
+  int channel;
   const Medium& medium;
   const DiffusionCoefficients& coefficients;
   const SolverSettings& settings;
-  const PhotonHalves& photons;
+  const IncidentLight& light;
   const ObjectGrids* grids;  // shared by the object's channels; null unless the method is grid
   const RayCaster& caster;
   std::uint32_t object;  // index in the caster
@@ -35,8 +37,8 @@ struct ChannelProblem {
 using FieldValues = std::function<Eigen::VectorXd(const Points&)>;
 
 struct ChannelSolution {
-  FieldValues U_d;
-  bool solved = false;           // false: U_d is not to be used, failures say why
+  FieldValues U_d;      // with the model boundary_flux: U_ri + U_d, which it does not tell apart
+  bool solved = false;  // false: U_d is not to be used, failures say why
   double numerical_error = 0.0;  // of solving the equations given the photons, relative
   double noise = 0.0;            // of the photons, relative
   // Figures of this method by name, for the summary (docs/json.md).

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "photon/photon_tracer.h"
+#include "pipeline/plan.h"
 #include "pipeline/scene_setup.h"
-#include "pipeline/solve_object.h"
 
 namespace knotlight {
 namespace {
@@ -17,26 +17,17 @@ constexpr std::size_t most_audit_photons = 200'000;
 
 }  // namespace
 
-std::string planned_method(const Scene& scene) {
-  if (chosen_method(scene.solver) == Method::grid)
-    return fmt::format("grid: photons counted into cells, finite elements cut off at the surface{}",
-                       scene.solver.method == Method::automatic
-                           ? " (auto: the boundary knot method of this version is the thesis's, "
-                             "which misses the tolerance on most scenes)"
-                           : "");
-  return "bkm_thesis: dual reciprocity with Gaussians and the non-singular solution, both by "
-         "truncated SVD";
-}
-
 Report inspect_scene(const std::string& path, bool audit, RunContext& run, Scene& scene_out) {
   const PreparedScene prepared = prepare_scene(path, run);
   const Scene& scene = prepared.scene;
+  const Plan plan = make_plan(prepared);
   Report report;
   for (const std::uint32_t index : prepared.translucent) {
     const Object& object = scene.objects[index];
     ObjectReport entry;
     entry.name = object.name;
-    entry.method = planned_method(scene);
+    entry.source = plan.source_reason;
+    entry.method = plan.method_reason;
     for (int c = 0; c < scene.channels; ++c)
       entry.validity.push_back(diffusion_validity(object.shape, object.translucent()->medium(c)));
     report.objects.push_back(entry);
@@ -84,7 +75,7 @@ std::string describe(const Report& report, const Scene& scene) {
           c, a.reflected_fraction(), a.absorbed_fraction(), a.escaped_fraction(),
           a.standard_error_escaped / a.incident);
     }
-    text += fmt::format("  method   {}\n", object.method);
+    text += fmt::format("  source   {}\n  method   {}\n", object.source, object.method);
   }
   return text;
 }

@@ -16,7 +16,4 @@ Report inspect_scene(const std::string& path, bool audit, RunContext& run, Scene
 // The report as text for a person.
 std::string describe(const Report& report, const Scene& scene);
 
-// What would be solved for an object, and why, in a sentence.
-std::string planned_method(const Scene& scene);
-
 }  // namespace knotlight

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "core/file_io.h"
+#include "pipeline/incident_light.h"
 #include "pipeline/scene_setup.h"
 #include "pipeline/solve_scene.h"
 
@@ -75,6 +76,30 @@ std::vector<Vec3> read_points(const std::string& path) {
   return points;
 }
 
+// Photon maps that tell U_ri, [channel][translucent object], whatever the source model.
+std::vector<std::vector<VolumePhotonMap>> first_light_maps(const PreparedScene& prepared,
+                                                           RunContext& run) {
+  const Scene& scene = prepared.scene;
+  std::vector<std::vector<VolumePhotonMap>> maps(static_cast<std::size_t>(scene.channels));
+  Stage stage(run.stages, "photon map",
+              incident_light_work(prepared, SourceModel::photon_map) * maps.size());
+  for (int c = 0; c < scene.channels; ++c) {
+    std::vector<IncidentLight> light = trace_incident_light(prepared, c, SourceModel::photon_map,
+                                                            run.options.seed, run.workers, stage);
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      // Both halves in one map: each is an estimate of all the light.
+      std::vector<VolumePhoton> photons = std::move(light[i].halves[0].photons);
+      photons.insert(photons.end(), light[i].halves[1].photons.begin(),
+                     light[i].halves[1].photons.end());
+      for (VolumePhoton& photon : photons) photon.power *= 0.5;
+      const Object& object = scene.objects[prepared.translucent[i]];
+      maps[static_cast<std::size_t>(c)].emplace_back(std::move(photons),
+                                                     object.translucent()->medium(c));
+    }
+  }
+  return maps;
+}
+
 // Where a point lies: in or on a translucent object, and the place to evaluate there.
 struct Place {
   std::size_t object;  // in SolvedScene::objects
@@ -100,6 +125,7 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
   const std::vector<Vec3> points = read_points(points_csv);
   const PreparedScene prepared = prepare_scene(path, run);
   const SolvedScene solved = solve_scene(prepared, run);
+  const auto maps = first_light_maps(prepared, run);
   EstimateOptions estimate = estimate_options(prepared.scene.solver);
   estimate.max_radius = probe_radius;
 
@@ -119,9 +145,13 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
               }
               const SolvedChannel& channel =
                   solved.objects[place->object][static_cast<std::size_t>(c)];
-              row += fmt::format(",{},{}", channel.U_d_at(place->point),
-                                 channel.photons.U_ri(place->point, estimate, *prepared.caster,
-                                                      prepared.translucent[place->object]));
+              const double U_ri = maps[static_cast<std::size_t>(c)][place->object]
+                                      .estimate(place->point, estimate, *prepared.caster,
+                                                prepared.translucent[place->object])
+                                      .U_ri;
+              // This model solves for both together.
+              const double in_U_d = channel.model == SourceModel::boundary_flux ? U_ri : 0.0;
+              row += fmt::format(",{},{}", channel.U_d_at(place->point) - in_U_d, U_ri);
             }
             rows[i] = row + (place ? ",ok\n" : ",outside\n");
           }

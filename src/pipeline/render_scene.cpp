@@ -40,7 +40,10 @@ std::vector<std::optional<GlowingSurface>> evaluate_surfaces(const PreparedScene
   std::vector<std::optional<GlowingSurface>> surfaces(scene.objects.size());
   std::size_t total = 0;
   for (const std::uint32_t index : prepared.translucent) {
-    surfaces[index].emplace(GlowingSurface{SurfaceGrid(scene.objects[index].shape), {}, {}});
+    surfaces[index].emplace(GlowingSurface{SurfaceGrid(scene.objects[index].shape),
+                                           {},
+                                           {},
+                                           solved.plan.source == SourceModel::boundary_flux});
     total += static_cast<std::size_t>(surfaces[index]->grid.nodes().cols() * scene.channels);
   }
   Stage stage(run.stages, "surface", total);
@@ -95,17 +98,18 @@ Metadata picture_metadata(const Scene& scene, const std::string& path, const Rep
 
 }  // namespace
 
+Image take_picture(const PreparedScene& prepared, const SolvedScene& solved, RunContext& run) {
+  const auto surfaces = evaluate_surfaces(prepared, solved, run);
+  Stage stage(run.stages, "picture", picture_tiles(prepared.scene.camera));
+  return render_picture(prepared.scene, *prepared.caster, surfaces, run.options.seed, run.workers,
+                        stage);
+}
+
 Report render_scene(const std::string& path, const std::vector<std::string>& outputs,
                     RunContext& run, Scene& scene_out) {
   const PreparedScene prepared = prepare_scene(path, run);
   const SolvedScene solved = solve_scene(prepared, run);
-  const auto surfaces = evaluate_surfaces(prepared, solved, run);
-  Image image;
-  {
-    Stage stage(run.stages, "picture", picture_tiles(prepared.scene.camera));
-    image = render_picture(prepared.scene, *prepared.caster, surfaces, run.options.seed,
-                           run.workers, stage);
-  }
+  const Image image = take_picture(prepared, solved, run);
   const Stage stage(run.stages, "write", 0);
   for (const std::string& output : outputs)
     write_image(output, image, picture_metadata(prepared.scene, path, solved.report, run));

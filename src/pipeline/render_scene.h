@@ -4,11 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "core/image_io.h"
 #include "pipeline/report.h"
 #include "pipeline/run_options.h"
+#include "pipeline/solve_scene.h"
 #include "scene/scene.h"
 
 namespace knotlight {
+
+// The scene as its camera sees it, linear radiance. What could not be solved stays dark.
+Image take_picture(const PreparedScene& prepared, const SolvedScene& solved, RunContext& run);
 
 // Solves every translucent object and writes the picture to each of `outputs` (.exr or .png). The
 // picture is written also if a check fails; its metadata then says so.

@@ -17,8 +17,9 @@ struct ChannelReport {
   double lambda = 0.0;  // 1/length
   double k = 0.0;       // length
 
-  std::size_t photons = 0;    // recorded in the object
-  double photon_power = 0.0;  // of the light that interacts first there, W
+  std::size_t photons = 0;     // recorded in the object
+  double photon_power = 0.0;   // of the light that interacts first there, W
+  double entered_power = 0.0;  // by irradiance samples; 0 with the photon map, W
   // What else the method has to tell, by name (docs/json.md).
   std::vector<std::pair<std::string, double>> figures;
 
@@ -34,6 +35,7 @@ struct ChannelReport {
 
 struct ObjectReport {
   std::string name;
+  std::string source;                   // which source model, and why, in words
   std::string method;                   // what was solved, and why, in words
   std::vector<Validity> validity;       // per channel
   std::vector<ChannelReport> channels;  // per channel; empty before a solve

@@ -61,6 +61,7 @@ void add_solution(Json& json, const std::vector<ChannelReport>& channels) {
   add("k", [](auto& c) { return c.k; });
   add("photons", [](auto& c) { return c.photons; });
   add("photon_power", [](auto& c) { return c.photon_power; });
+  add("entered_power", [](auto& c) { return c.entered_power; });
   for (std::size_t i = 0; i < channels.front().figures.size(); ++i)
     add(channels.front().figures[i].first.c_str(), [i](auto& c) { return c.figures[i].second; });
   add("numerical_error", [](auto& c) { return c.numerical_error; });
@@ -92,6 +93,7 @@ std::string report_json(const std::string& command, const Report& report, const 
   for (const ObjectReport& object : report.objects) {
     Json entry;
     entry["name"] = object.name;
+    entry["source"] = object.source;
     entry["method"] = object.method;
     add_validity(entry, object.validity);
     if (!object.audit.empty()) add_audit(entry, object.audit);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/errors.h"
 #include "render/camera.h"
 #include "scene/scene_reader.h"
@@ -25,35 +27,55 @@ bool eye_inside(const Camera& camera, const RayCaster& caster, std::uint32_t obj
   return false;
 }
 
+// Photons, solution and picture then all see the reduced medium.
+void make_similar(TranslucentMaterial& material) {
+  for (int c = 0; c < 3; ++c) {
+    const Medium similar = material.medium(c).similar();
+    material.sigma_s[c] = similar.sigma_s;
+    material.g[c] = similar.g;
+  }
+}
+
 }  // namespace
 
-PreparedScene prepare_scene(const std::string& path, RunContext& run) {
+PreparedScene prepare_scene(Scene scene) {
   PreparedScene prepared;
+  prepared.scene = std::move(scene);
+  if (prepared.scene.solver.similarity)
+    for (Object& object : prepared.scene.objects)
+      if (auto* material = std::get_if<TranslucentMaterial>(&object.material))
+        make_similar(*material);
+  const std::vector<Object>& objects = prepared.scene.objects;
+  std::vector<const Shape*> shapes;
+  for (const Object& object : objects) shapes.push_back(&object.shape);
+  prepared.caster = std::make_unique<RayCaster>(shapes);
+  for (std::uint32_t i = 0; i < objects.size(); ++i)
+    if (objects[i].translucent() != nullptr) prepared.translucent.push_back(i);
+  refuse_overlaps(prepared.scene, *prepared.caster);
+  return prepared;
+}
+
+PreparedScene prepare_scene(const std::string& path, RunContext& run) {
+  Scene scene;
   {
     const Stage stage(run.stages, "scene", 0);
-    prepared.scene = read_scene(path, run.options.overrides);
+    scene = read_scene(path, run.options.overrides);
   }
   const Stage stage(run.stages, "geometry", 0);
-  const Scene& scene = prepared.scene;
   if (!run.options.quiet)
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
-  std::vector<const Shape*> shapes;
-  for (const Object& object : scene.objects) shapes.push_back(&object.shape);
-  prepared.caster = std::make_unique<RayCaster>(shapes);
-  for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
-    if (scene.objects[i].translucent() != nullptr) prepared.translucent.push_back(i);
-
+  PreparedScene prepared;
   try {
-    refuse_overlaps(scene, *prepared.caster);
+    prepared = prepare_scene(std::move(scene));
   } catch (const InputError& error) {
     throw InputError(path + ": objects: " + error.what());
   }
   for (const std::uint32_t i : prepared.translucent)
-    if (eye_inside(scene.camera, *prepared.caster, i))
+    if (eye_inside(prepared.scene.camera, *prepared.caster, i))
       throw InputError(
           fmt::format("{}: camera.from: lies inside object '{}', expected a place outside", path,
-                      scene.objects[i].name));
+                      prepared.scene.objects[i].name));
   return prepared;
 }
 

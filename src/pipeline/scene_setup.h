@@ -1,4 +1,4 @@
-// Scene file -> what every command starts from.
+// Scene -> what every command starts from.
 #pragma once
 
 #include <memory>
@@ -20,5 +20,9 @@ struct PreparedScene {
 // Reads, checks, builds the ray caster, refuses overlapping solids and an eye inside one. Prints
 // the scene's warnings to stderr unless quiet.
 PreparedScene prepare_scene(const std::string& path, RunContext& run);
+
+// The same for a scene made in memory, which has no file to name and perhaps no picture to take:
+// refuses overlapping solids (InputError), leaves the camera unchecked, prints nothing.
+PreparedScene prepare_scene(Scene scene);
 
 }  // namespace knotlight

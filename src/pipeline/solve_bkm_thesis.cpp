@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bkm/certificate.h"
 #include "bkm/knots.h"
@@ -35,16 +36,54 @@ struct RightHandSides {
   Eigen::VectorXd g() const { return 0.5 * (halves[0].g + halves[1].g); }
 };
 
-RightHandSides right_hand_sides(const Places& places, const ChannelProblem& p) {
+constexpr int rays_per_knot = 256;  // to lights of some extent: no neighbour evens out its noise
+
+// Light that enters at each point, W/length^2.
+Eigen::VectorXd entering(const SurfaceSamples& at, const ChannelProblem& p, std::uint64_t stream) {
+  Eigen::VectorXd values(at.positions.cols());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    Rng rng(p.seed + stream, Stream::irradiance_rays, static_cast<std::uint64_t>(i));
+    values[i] = entering_irradiance(p.scene, p.caster, p.channel, p.object,
+                                    {at.positions.col(i), at.normals.col(i)}, rays_per_knot, rng);
+  }
+  return values;
+}
+
+// The thesis's irradiance sampling: the light that enters at a knot becomes the value
+// exp(-sigma_t l) E / (4 pi) of an isotropic source at the knot l = 1/sigma_tr below it, and the
+// source is zero at all other knots [V09 6.21-6.24]: f = -3 sigma_tr times that value.
+void add_thesis_irradiance(SourceTerms& terms, const Places& knots, const Eigen::VectorXd& light,
+                           const ChannelProblem& p) {
+  const double depth = 1.0 / p.medium.sigma_tr();
+  const double per_light =
+      -3.0 * p.medium.sigma_tr() * std::exp(-p.medium.sigma_t() * depth) / (4.0 * std::numbers::pi);
+  // The first layer of interior knots, in the order of the boundary knots, less those outside.
+  Eigen::Index row = knots.surface.positions.cols();
+  for (Eigen::Index i = 0; i < light.size(); ++i) {
+    const Vec3 x = knots.surface.positions.col(i) - depth * knots.surface.normals.col(i);
+    if (p.caster.inside(x, p.object)) terms.f[row++] += per_light * light[i];
+  }
+}
+
+RightHandSides right_hand_sides(const Places& places, const VolumePhotonMap (&maps)[2],
+                                bool at_knots, const ChannelProblem& p) {
   SourceTermOptions options;
   options.estimate = estimate_options(p.settings);
   options.boundary = p.settings.boundary;
   options.divergence = p.settings.divergence;
   RightHandSides result;
-  for (std::size_t half = 0; half < 2; ++half)
-    result.halves[half] =
-        source_terms(places.surface.positions, places.surface.normals, places.interior,
-                     p.photons.maps[half], p.medium, options, p.caster, p.object, p.workers);
+  for (std::size_t half = 0; half < 2; ++half) {
+    SourceTerms& terms = result.halves[half];
+    terms = source_terms(places.surface.positions, places.surface.normals, places.interior,
+                         maps[half], p.medium, options, p.caster, p.object, p.workers);
+    if (p.light.model == SourceModel::photon_map) continue;
+    const Eigen::VectorXd light = entering(places.surface, p, half);
+    if (p.light.model == SourceModel::boundary_flux)
+      for (Eigen::Index i = 0; i < light.size(); ++i)
+        terms.g[i] += p.coefficients.boundary_flux_data(light[i]);
+    else if (at_knots)
+      add_thesis_irradiance(terms, places, light, p);
+  }
   return result;
 }
 
@@ -96,12 +135,14 @@ ChannelSolution solve_by_bkm_thesis(const ChannelProblem& p) {
   if (p.settings.svd_cut) options.relative_cut = *p.settings.svd_cut;
   const BkmThesisSolver solver(problem, options);
 
-  const RightHandSides at_knots = right_hand_sides(knots, p);
+  const VolumePhotonMap maps[2] = {VolumePhotonMap(p.light.halves[0].photons, p.medium),
+                                   VolumePhotonMap(p.light.halves[1].photons, p.medium)};
+  const RightHandSides at_knots = right_hand_sides(knots, maps, true, p);
   const BkmField field = solver.solve(at_knots.f(), at_knots.g());
   const BkmField half_field = solver.solve(at_knots.halves[0].f, at_knots.halves[0].g);
 
   const Places checks = check_places(p);
-  const RightHandSides at_checks = right_hand_sides(checks, p);
+  const RightHandSides at_checks = right_hand_sides(checks, maps, false, p);
   const Eigen::VectorXd f = at_checks.f().tail(checks.interior.cols());
   const Certificate certificate =
       certify(field, problem, checks.surface.positions, checks.surface.normals, at_checks.g(),
@@ -115,6 +156,10 @@ ChannelSolution solve_by_bkm_thesis(const ChannelProblem& p) {
     solution.failures.push_back("the linear systems could not be solved: " + solver.message());
   else if (!certificate.trusted)
     solution.failures.push_back("the solution has values that are not finite");
+  if (p.light.model == SourceModel::irradiance_thesis)
+    solution.failures.push_back(
+        "the thesis's irradiance source is a value at knots, not a power density: what it adds up "
+        "to depends on the number of knots");
   if (interior.dropped > count)
     solution.failures.push_back(
         fmt::format("{} of {} interior knots would lie outside: the object is too thin for them",

@@ -4,39 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "grid/error_estimate.h"
 #include "grid/solver.h"
+#include "pipeline/grid_load.h"
 
 namespace knotlight {
 namespace {
-
-using std::numbers::pi;
 
 // Beyond this cell size the layer in which light is first scattered lies within one cell, on the
 // coarse grid too, and comparing the two says nothing any more.
 constexpr double coarsest_cells = 2.0;  // transport mean free paths
 constexpr double lost_allowed = 1e-3;   // share of the sources that found no cell
-
-// The weak form of docs/theory.md (5) and (7), tested with v: a first-interaction photon of power
-// dPhi flying along w gives
-//   3 sigma_s sigma_tr / (4 pi sigma_t) dPhi v  +  (3/4pi) g (sigma_s / sigma_t) dPhi w . grad v.
-// The boundary term with Q_ri . n cancels against the one from div Q_ri: no density has to be
-// estimated, anywhere.
-GridLoad photon_load(const GridGeometry& geometry, const std::vector<VolumePhoton>& photons,
-                     const ChannelProblem& p) {
-  const Medium& m = p.medium;
-  const double strength = 3.0 * m.sigma_s * m.sigma_tr() / (4.0 * pi * m.sigma_t());
-  const double moment = 3.0 / (4.0 * pi) * m.g * m.sigma_s / m.sigma_t();
-  GridLoad load(geometry);
-  for (const VolumePhoton& photon : photons) {
-    load.add_source(photon.position, strength * photon.power);
-    if (moment != 0.0) load.add_dipole(photon.position, moment * photon.power * photon.direction);
-  }
-  load.add_uniform(p.coefficients.source_per_E * m.emission);
-  return load;
-}
 
 }  // namespace
 
@@ -64,15 +43,15 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
   const double lambda = p.coefficients.lambda;
   const double k = p.coefficients.k;
   const GridSolver fine(grids.fine, lambda, k);
-  const GridLoad loads[2] = {photon_load(*grids.fine, p.photons.maps[0].photons(), p),
-                             photon_load(*grids.fine, p.photons.maps[1].photons(), p)};
+  const GridLoad loads[2] = {incident_load(*grids.fine, p.light.halves[0], p),
+                             incident_load(*grids.fine, p.light.halves[1], p)};
   const GridSolution halves[2] = {fine.solve(loads[0]), fine.solve(loads[1])};
   const GridField field(grids.fine, 0.5 * (halves[0].field.nodes() + halves[1].field.nodes()));
 
   const GridSolver coarse(grids.coarse, lambda, k);
   const Eigen::VectorXd coarse_load =
-      0.5 * (photon_load(*grids.coarse, p.photons.maps[0].photons(), p).values() +
-             photon_load(*grids.coarse, p.photons.maps[1].photons(), p).values());
+      0.5 * (incident_load(*grids.coarse, p.light.halves[0], p).values() +
+             incident_load(*grids.coarse, p.light.halves[1], p).values());
   const GridSolution coarse_solution = coarse.solve(coarse_load);
 
   const SurfaceSamples checks = boundary_check_points(p);

@@ -19,8 +19,28 @@ constexpr std::size_t volume_samples = 4096;    // of the absorption: 1-2 % of i
 constexpr double tolerances_allowed = 3.0;
 constexpr double sampling_deviations = 4.0;  // of the volume integral: one false alarm in 16 000
 
+// To lights of some extent, per surface point of a picture: noise well below the tolerance.
+constexpr int rays_per_surface_point = 256;
+
+// Power that the source model hands to the diffusion equation, W.
+double power_in(const ChannelProblem& p) {
+  const double scattered = p.medium.albedo() * p.light.photon_power();
+  const double emitted = p.medium.emission * volume(p.shape);
+  switch (p.light.model) {
+    case SourceModel::photon_map:
+    case SourceModel::irradiance_thesis:  // which has no power: nothing to balance it with
+      return scattered + emitted;
+    case SourceModel::irradiance_sampling:
+      return scattered + emitted + p.medium.reduced_albedo() * p.light.entered_power();
+    case SourceModel::boundary_flux:
+      return scattered + emitted + p.light.entered_power();
+  }
+  return 0.0;
+}
+
 // The terms of the energy balance, docs/theory.md section 4.
-void balance_energy(const ChannelProblem& p, const FieldValues& U_d, ChannelReport& report) {
+void balance_energy(const ChannelProblem& p, const SolvedChannel& solved, ChannelReport& report) {
+  const FieldValues& U_d = solved.U_d;
   const double solid = volume(p.shape);
   const SurfaceSamples surface = columns(
       stratified_surface_points(p.shape, boundary_samples, true, p.seed + 2, Stream::check_points));
@@ -31,9 +51,12 @@ void balance_energy(const ChannelProblem& p, const FieldValues& U_d, ChannelRepo
   const double deviation =
       std::sqrt((inside.array() - mean).square().sum() / static_cast<double>(inside.size()));
   const double absorbed_per_U = 4.0 * std::numbers::pi * p.medium.sigma_a * solid;
-  report.power_in = p.medium.albedo() * report.photon_power + p.medium.emission * solid;
+  report.power_in = power_in(p);
   report.power_leaving =
-      p.coefficients.leaving_flux(U_d(surface.positions).mean()) * surface_area(p.shape);
+      p.coefficients.leaving_flux(leaving_U_d(solved, p.scene, p.caster, p.object, p.channel,
+                                              surface.positions, surface.normals, p.seed + 2)
+                                      .mean()) *
+      surface_area(p.shape);
   report.power_absorbed = absorbed_per_U * mean;
   report.energy_imbalance =
       relative(report.power_leaving + report.power_absorbed - report.power_in, report.power_in);
@@ -63,32 +86,38 @@ void judge(const ChannelReport& r, double tolerance, std::vector<std::string>& f
 
 }  // namespace
 
-Method chosen_method(const SolverSettings& settings) {
-  return settings.method == Method::automatic ? Method::grid : settings.method;
+Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
+                            const RayCaster& caster, std::uint32_t object, int channel_index,
+                            const Points& positions, const Points& normals, std::uint64_t seed) {
+  Eigen::VectorXd values = channel.U_d(positions);
+  if (channel.model != SourceModel::boundary_flux) return values;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    Rng rng(seed, Stream::irradiance_rays, static_cast<std::uint64_t>(i));
+    values[i] -= DiffusionCoefficients::boundary_flux_U_ri(
+        entering_irradiance(scene, caster, channel_index, object,
+                            {positions.col(i), normals.col(i)}, rays_per_surface_point, rng));
+  }
+  return values;
 }
 
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
-                            int channel, const ObjectGrids* grids,
-                            std::vector<VolumePhoton> photons, std::uint64_t seed,
-                            const Workers& workers) {
+                            int channel, const ObjectGrids* grids, const IncidentLight& light,
+                            std::uint64_t seed, const Workers& workers) {
   const Medium medium = scene.objects[object].translucent()->medium(channel);
   const DiffusionCoefficients coefficients = diffusion_coefficients(medium, scene.solver.boundary);
-  SolvedChannel result{PhotonHalves(std::move(photons), medium), {}, false, {}, {}};
-  const ChannelProblem problem{scene.objects[object].shape,
-                               medium,
-                               coefficients,
-                               scene.solver,
-                               result.photons,
-                               grids,
-                               caster,
-                               object,
-                               seed,
-                               workers};
+  SolvedChannel result{light.model, {}, false, {}, {}};
+  const ChannelProblem problem{scene,        scene.objects[object].shape,
+                               channel,      medium,
+                               coefficients, scene.solver,
+                               light,        grids,
+                               caster,       object,
+                               seed,         workers};
   ChannelReport& report = result.report;
   report.lambda = coefficients.lambda;
   report.k = coefficients.k;
-  report.photons = result.photons.size();
-  report.photon_power = result.photons.total_power();
+  report.photons = light.photons();
+  report.photon_power = light.photon_power();
+  report.entered_power = light.entered_power();
 
   ChannelSolution solution =
       grids != nullptr ? solve_by_grid(problem) : solve_by_bkm_thesis(problem);
@@ -100,9 +129,10 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
   report.numerical_error = solution.numerical_error;
   report.noise = solution.noise;
   report.error_estimate = report.numerical_error + report.noise;
-  balance_energy(problem, result.U_d, report);
+  balance_energy(problem, result, report);
   result.failures = std::move(solution.failures);
-  if (!scene.lights.empty() && scene.solver.photons < least_photons)
+  if (!scene.lights.empty() && light.model == SourceModel::photon_map &&
+      scene.solver.photons < least_photons)
     result.failures.push_back(
         fmt::format("{} photons are too few to judge anything by, expected {}",
                     scene.solver.photons, least_photons));

@@ -12,8 +12,9 @@ namespace knotlight {
 
 // A channel of an object, solved.
 struct SolvedChannel {
-  PhotonHalves photons;
-  FieldValues U_d;  // not-a-number everywhere if the method did not come to a solution
+  SourceModel model;
+  FieldValues U_d;  // not-a-number everywhere if the method did not come to a solution; with
+                    // boundary_flux U_ri + U_d, see below
   bool solved;
   ChannelReport report;
   std::vector<std::string> failures;  // checks that failed, one sentence each
@@ -21,13 +22,16 @@ struct SolvedChannel {
   double U_d_at(const Vec3& x) const { return U_d(x)[0]; }
 };
 
-// The method that `solver.method: auto` stands for.
-Method chosen_method(const SolverSettings& settings);
+// U_d on the surface (positions and outward normals: 3 x N): what leaving_flux and the exitance
+// take. The model boundary_flux solves for U_ri + U_d; its U_ri on the surface, entered / (2 pi),
+// is taken off here.
+Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
+                            const RayCaster& caster, std::uint32_t object, int channel_index,
+                            const Points& positions, const Points& normals, std::uint64_t seed);
 
 // grids: of this object if the chosen method is grid, else null.
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
-                            int channel, const ObjectGrids* grids,
-                            std::vector<VolumePhoton> photons, std::uint64_t seed,
-                            const Workers& workers);
+                            int channel, const ObjectGrids* grids, const IncidentLight& light,
+                            std::uint64_t seed, const Workers& workers);
 
 }  // namespace knotlight

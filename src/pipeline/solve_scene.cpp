@@ -2,26 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "core/convexity.h"
-#include "photon/photon_tracer.h"
-#include "pipeline/info.h"
+#include "pipeline/plan.h"
 #include "pipeline/solve_grid.h"
 #include "trace/overlap.h"
 
 namespace knotlight {
 
 namespace {
-
-// Light that has left an object can enter it, or another one, again unless there is but one,
-// convex.
-bool light_can_come_back(const PreparedScene& prepared) {
-  return prepared.translucent.size() > 1 ||
-         (prepared.translucent.size() == 1 &&
-          !is_convex(prepared.scene.objects[prepared.translucent[0]].shape));
-}
 
 // Photons are sent at the sphere around all translucent objects. Whether enough of them were aimed
 // at one object's own sphere to tell darkness from bad luck.
@@ -39,27 +30,43 @@ bool aimed_at(const PreparedScene& prepared, std::uint32_t object) {
          share * static_cast<double>(prepared.scene.solver.photons) >= enough;
 }
 
+// Lights that stand, or partly stand, inside a translucent object.
+std::vector<std::string> lamps_inside(const PreparedScene& prepared) {
+  std::vector<std::string> lamps;
+  for (std::size_t l = 0; l < prepared.scene.lights.size(); ++l) {
+    std::vector<Vec3> places;
+    const Light& light = prepared.scene.lights[l];
+    if (const auto* point = std::get_if<PointLight>(&light)) places = {point->position};
+    if (const auto* area = std::get_if<AreaLight>(&light))
+      for (const double a : {-1.0, 0.0, 1.0})
+        for (const double b : {-1.0, 0.0, 1.0})
+          places.push_back(area->center + a * area->u + b * area->v);
+    const bool inside = std::any_of(places.begin(), places.end(), [&](const Vec3& p) {
+      return std::any_of(prepared.translucent.begin(), prepared.translucent.end(),
+                         [&](std::uint32_t object) { return prepared.caster->inside(p, object); });
+    });
+    if (inside) lamps.push_back(fmt::format("lights.{}", l));
+  }
+  return lamps;
+}
+
 }  // namespace
 
 SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
   const Scene& scene = prepared.scene;
   const auto channels = static_cast<std::size_t>(scene.channels);
 
-  // photons[channel][object]
-  std::vector<std::vector<std::vector<VolumePhoton>>> photons;
+  const Plan plan = make_plan(prepared);
+  std::vector<std::vector<IncidentLight>> light;  // [channel][translucent object]
   {
-    TracerOptions options;
-    options.photons = scene.solver.photons;
-    options.seed = run.options.seed;
-    if (light_can_come_back(prepared)) options.orders = TracerOptions::Orders::reentering;
-    Stage stage(run.stages, "photons", options.photons * channels);
+    Stage stage(run.stages, "photons", incident_light_work(prepared, plan.source) * channels);
     for (int c = 0; c < scene.channels; ++c)
-      photons.push_back(
-          trace_photons(scene, *prepared.caster, c, options, run.workers, stage).photons);
+      light.push_back(
+          trace_incident_light(prepared, c, plan.source, run.options.seed, run.workers, stage));
   }
 
   std::vector<std::optional<ObjectGrids>> grids(prepared.translucent.size());
-  if (chosen_method(scene.solver) == Method::grid) {
+  if (plan.method == Method::grid) {
     Stage stage(run.stages, "grid", grids.size());
     for (std::size_t i = 0; i < grids.size(); ++i) {
       grids[i] = make_grids(scene.objects[prepared.translucent[i]], scene.channels, scene.solver,
@@ -80,20 +87,28 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
       const auto& object_grids = grids[system / channels];
       solved[system] =
           solve_channel(scene, *prepared.caster, object, static_cast<int>(channel),
-                        object_grids ? &*object_grids : nullptr,
-                        std::move(photons[channel][object]), run.options.seed, Workers(1));
+                        object_grids ? &*object_grids : nullptr, light[channel][system / channels],
+                        run.options.seed, Workers(1));
+      light[channel][system / channels] = {};  // freed as we go
       stage.advance();
     });
   }
 
   SolvedScene result;
+  result.plan = plan;
+  if (plan.source != SourceModel::photon_map)
+    for (const std::string& lamp : lamps_inside(prepared))
+      result.report.failures.push_back(
+          fmt::format("{} lies inside a translucent object: {} counts light from outside alone",
+                      lamp, name_of(plan.source)));
   for (const std::string& inclusion : opaque_inclusions(scene, *prepared.caster))
     result.report.failures.push_back(inclusion + ": the diffusion equation does not know it");
   for (std::size_t i = 0; i < prepared.translucent.size(); ++i) {
     const Object& object = scene.objects[prepared.translucent[i]];
     ObjectReport report;
     report.name = object.name;
-    report.method = planned_method(scene);
+    report.source = plan.source_reason;
+    report.method = plan.method_reason;
     result.objects.emplace_back();
     for (std::size_t c = 0; c < channels; ++c) {
       SolvedChannel& channel = *solved[i * channels + c];
@@ -104,7 +119,8 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
           diffusion_validity(object.shape, object.translucent()->medium(static_cast<int>(c)));
       for (const std::string& failure : channel.failures)
         result.report.failures.push_back(fmt::format("{}: {}", where, failure));
-      if (!aimed_at(prepared, prepared.translucent[i]) && channel.report.photons == 0)
+      if (plan.source == SourceModel::photon_map && channel.report.photons == 0 &&
+          !aimed_at(prepared, prepared.translucent[i]))
         result.report.failures.push_back(fmt::format(
             "{}: no photon met it, but hardly any was sent its way: it is small beside the others",
             where));

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "pipeline/plan.h"
 #include "pipeline/report.h"
 #include "pipeline/run_options.h"
 #include "pipeline/scene_setup.h"
@@ -13,6 +14,7 @@ namespace knotlight {
 struct SolvedScene {
   // One entry per translucent object in scene order, in it one per channel.
   std::vector<std::vector<SolvedChannel>> objects;
+  Plan plan;
   Report report;
 };
 

@@ -73,11 +73,16 @@ class Picture {
     const Vec3 n = shading_normal(hit);
     const double cosine = std::clamp(-n.dot(ray.direction), least_cosine, 1.0);
     const GlowingSurface& surface = *surfaces_[hit.object];
+    const Spectrum entered =
+        surface.counts_entering_light
+            ? sample_irradiance(scene_, caster_, hit.position, n, rng, material.ior)
+            : Spectrum(Spectrum::Zero());
     Spectrum light;
     for (int c = 0; c < 3; ++c) {
       const auto channel = static_cast<std::size_t>(std::min(c, scene_.channels - 1));
-      light[c] =
-          surface.leaving[channel](surface.grid.interpolate(surface.U_d[channel], hit), cosine);
+      const double U_d = surface.grid.interpolate(surface.U_d[channel], hit) -
+                         DiffusionCoefficients::boundary_flux_U_ri(entered[c]);
+      light[c] = surface.leaving[channel](U_d, cosine);
     }
     if (material.ior == 1.0) return light + seen_through(ray, hit, material, bounces, rng);
     const double reflectance = fresnel_reflectance(cosine, material.ior);

@@ -20,6 +20,9 @@ struct GlowingSurface {
   SurfaceGrid grid;
   std::vector<Eigen::VectorXd> U_d;      // per channel, one value per grid node, W/(length^2 sr)
   std::vector<LeavingRadiance> leaving;  // per channel
+  // U_d holds U_ri too, that of light which is diffuse from the moment it enters (the source model
+  // boundary_flux); entered / (2 pi) has to come off.
+  bool counts_entering_light = false;
 };
 
 // How often render_picture advances its stage.

@@ -93,7 +93,7 @@ struct SolverSettings {
   Method method = Method::automatic;
   Boundary boundary = Boundary::milne;
   std::optional<Exitance> exitance;
-  std::size_t photons = 6'000'000;        // emitted towards the translucent objects, per channel
+  std::size_t photons = 2'000'000;        // emitted towards the translucent objects, per channel
   std::optional<std::size_t> knots;       // on the boundary of each object
   bool jitter = true;                     // random point of each stratum, else its centre
   std::optional<double> shape_parameter;  // Gaussian width c, in mean knot spacings
@@ -101,6 +101,7 @@ struct SolverSettings {
   std::optional<std::size_t> estimate_photons;  // nearest photons in a density estimate
   Divergence divergence = Divergence::identity;
   std::optional<Deposits> deposits;
+  std::optional<std::size_t> irradiance_samples;  // per object; irradiance models only
   bool similarity = false;  // replace (sigma_s, g) by ((1 - g) sigma_s, 0)
   DensityEstimator estimator = DensityEstimator::nearest;
   std::optional<double> estimate_radius;  // of the ball of a density estimate, mean free paths

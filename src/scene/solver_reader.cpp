@@ -52,16 +52,17 @@ constexpr Range knot_spacings{1e-6, 1e6};
 // A ball of a thousand mean free paths averages over any object.
 constexpr Range estimate_radii{1e-6, 1e3};
 constexpr std::size_t max_photons = 500'000'000;  // 32 GB of them
+constexpr std::size_t max_irradiance_samples = 10'000'000;  // 0.6 GB of them
 constexpr std::size_t max_knots = 5'000;          // matrices of 15 000 rows, 7 GB
 constexpr std::size_t min_knots = 4;              // four points span a volume
 constexpr std::size_t max_estimate_photons = 1'000'000;
 
-// Noise falls as n^-1/2; on the shipped scenes this many leave about the tolerance of noise
-// (docs/results/accuracy.md).
+// Noise falls about as 1/n; on the shipped scenes this many leave half the tolerance of noise
+// (docs/results/expected-values.md).
 std::size_t default_photons(double tolerance) {
-  constexpr double photons_at_one_per_cent = 6e6;
-  constexpr double fewest = 3e5, most = 3e7;
-  const double wanted = photons_at_one_per_cent * std::pow(0.01 / tolerance, 2);
+  constexpr double photons_at_one_per_cent = 2e6;
+  constexpr double fewest = 2e5, most = 3e7;
+  const double wanted = photons_at_one_per_cent * 0.01 / tolerance;
   return static_cast<std::size_t>(std::clamp(wanted, fewest, most));
 }
 
@@ -70,7 +71,7 @@ std::size_t default_photons(double tolerance) {
 SolverSettings read_solver(const YamlNode& node) {
   check_keys(node, {"tolerance", "source", "method", "boundary", "exitance", "photons", "knots",
                     "jitter", "shape_parameter", "svd_cut", "estimate_photons", "divergence",
-                    "deposits", "similarity", "estimator", "estimate_radius"});
+                    "deposits", "similarity", "estimator", "estimate_radius", "irradiance_samples"});
   SolverSettings solver;
   if (const auto* key = node.find("tolerance")) {
     solver.tolerance = read_number(*key, between_0_and_1);
@@ -102,6 +103,9 @@ SolverSettings read_solver(const YamlNode& node) {
   if (const auto* key = node.find("estimator")) solver.estimator = read_choice(*key, estimators);
   if (const auto* key = node.find("estimate_radius")) {
     solver.estimate_radius = read_number(*key, estimate_radii);
+  }
+  if (const auto* key = node.find("irradiance_samples")) {
+    solver.irradiance_samples = read_count(*key, 2, max_irradiance_samples);
   }
   return solver;
 }

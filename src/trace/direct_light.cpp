@@ -1,9 +1,11 @@
 #include "trace/direct_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "core/fresnel.h"
 #include "core/sampling.h"
 
 namespace knotlight {
@@ -18,20 +20,24 @@ struct IrradianceSampler {
   const Vec3& position;
   const Vec3& normal;
   Rng& rng;
+  double ior;
+
+  // Share of the light from a direction at this cosine that passes the surface.
+  double entering(double cosine) const { return 1.0 - fresnel_reflectance(cosine, ior); }
 
   Spectrum operator()(const PointLight& light) const {
     const Vec3 to_light = light.position - position;
     const double distance = to_light.norm();
     const double cosine = normal.dot(to_light) / distance;
     if (cosine <= 0.0) return Spectrum::Zero();
-    return light.intensity * (cosine / (distance * distance)) *
+    return light.intensity * (entering(cosine) * cosine / (distance * distance)) *
            transmittance(scene, caster, position, to_light / distance, distance);
   }
 
   Spectrum operator()(const DirectionalLight& light) const {
     const double cosine = -normal.dot(light.direction);
     if (cosine <= 0.0) return Spectrum::Zero();
-    return light.irradiance * cosine *
+    return light.irradiance * (entering(cosine) * cosine) *
            transmittance(scene, caster, position, -light.direction,
                          std::numeric_limits<double>::infinity());
   }
@@ -46,7 +52,8 @@ struct IrradianceSampler {
     const double cosine = normal.dot(w);
     const double cosine_light = -light.normal().dot(w);
     if (cosine <= 0.0 || cosine_light <= 0.0) return Spectrum::Zero();
-    return light.radiance * (light.area() * cosine * cosine_light / (distance * distance)) *
+    return light.radiance *
+           (entering(cosine) * light.area() * cosine * cosine_light / (distance * distance)) *
            transmittance(scene, caster, position, w, distance);
   }
 
@@ -55,13 +62,14 @@ struct IrradianceSampler {
     const double v = rng.uniform();
     if (light.map == nullptr) {  // constant: density cos/pi per solid angle cancels the cosine
       const Vec3 w = Frame(normal).to_world(sample_cosine_hemisphere(u, v));
-      return pi * light.radiance *
+      return pi * entering(w.dot(normal)) * light.radiance *
              transmittance(scene, caster, position, w, std::numeric_limits<double>::infinity());
     }
     const EnvironmentMap::Sample sample = light.map->sample(u, v);
     const double cosine = normal.dot(sample.direction);
     if (cosine <= 0.0) return Spectrum::Zero();
-    return light.radiance * light.map->radiance(sample.direction) * (cosine / sample.pdf) *
+    return light.radiance * light.map->radiance(sample.direction) *
+           (entering(cosine) * cosine / sample.pdf) *
            transmittance(scene, caster, position, sample.direction,
                          std::numeric_limits<double>::infinity());
   }
@@ -91,11 +99,18 @@ Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& 
 }
 
 Spectrum sample_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
-                           const Vec3& normal, Rng& rng) {
+                           const Vec3& normal, Rng& rng, double ior) {
   Spectrum sum = Spectrum::Zero();
   for (const Light& light : scene.lights)
-    sum += std::visit(IrradianceSampler{scene, caster, position, normal, rng}, light);
+    sum += std::visit(IrradianceSampler{scene, caster, position, normal, rng, ior}, light);
   return sum;
+}
+
+bool irradiance_is_exact(const Scene& scene) {
+  return std::all_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return std::holds_alternative<PointLight>(light) ||
+           std::holds_alternative<DirectionalLight>(light);
+  });
 }
 
 std::optional<Spectrum> area_light_seen(const Scene& scene, const Ray& ray) {

@@ -15,9 +15,13 @@ Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& 
                        const Vec3& direction, double distance);
 
 // One Monte Carlo estimate of the irradiance (W/length^2) on the side of a surface that the unit
-// normal points to; one sample per light, exact for point and directional lights. Unbiased.
+// normal points to; one sample per light, exact for point and directional lights. Unbiased. With
+// the relative index `ior` of a smooth dielectric surface: of the part that enters it.
 Spectrum sample_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
-                           const Vec3& normal, Rng& rng);
+                           const Vec3& normal, Rng& rng, double ior = 1.0);
+
+// Whether sample_irradiance is exact: all lights are points or directions.
+bool irradiance_is_exact(const Scene& scene);
 
 // The radiance of the nearest area light that the ray meets before t_max (zero from behind), or
 // nothing if it meets none.

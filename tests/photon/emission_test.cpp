@@ -28,11 +28,14 @@ Bounds unit_target() {
   return b;
 }
 const double target_radius = std::sqrt(3.0);
+Sphere target_sphere() {
+  return {Vec3::Zero(), target_radius};
+}
 
 // Expects the mean power over rays with `counts` to be `exact`, within 5 standard errors.
 void expect_flux(const std::vector<Light>& lights, const std::function<bool(const Ray&)>& counts,
                  double exact, const Bounds& scene_bounds = unit_target(), int channel = 0) {
-  const Emitter emitter(lights, channel, unit_target(), scene_bounds);
+  const Emitter emitter(lights, channel, target_sphere(), scene_bounds);
   ASSERT_TRUE(emitter.any());
   double sum = 0.0;
   double squares = 0.0;
@@ -180,11 +183,11 @@ TEST(Emission, TiltedAreaLightOntoTheWholeTarget) {
 
 TEST(Emission, AreaLightShinesFromOneSideOnly) {
   const AreaLight away{Vec3(0, 0, 6), Vec3(1, 0, 0), Vec3(0, 1, 0), Spectrum::Constant(5.0)};
-  EXPECT_FALSE(Emitter({away}, 0, unit_target(), unit_target()).any());
+  EXPECT_FALSE(Emitter({away}, 0, target_sphere(), unit_target()).any());
   // Edge on, half of the target is lit.
   const AreaLight edge_on{Vec3(0, 0, 6), Vec3(0, 0.1, 0), Vec3(0, 0, 0.1), Spectrum::Constant(5.0)};
   const std::vector<Light> lights{edge_on};
-  const Emitter emitter(lights, 0, unit_target(), unit_target());
+  const Emitter emitter(lights, 0, target_sphere(), unit_target());
   for (std::uint64_t i = 0; i < 1000; ++i) {
     Rng rng(7, Stream::tests, i);
     const EmittedPhoton p = emitter.sample(rng);
@@ -202,7 +205,7 @@ TEST(Emission, ManyLightsAddUp) {
   const std::vector<Light> lights{point, sun, sky(0.3)};
   expect_flux(lights, through_disc(Vec3::Zero(), Vec3::UnitZ(), a), exact);
 
-  const Emitter emitter(lights, 0, unit_target(), unit_target());
+  const Emitter emitter(lights, 0, target_sphere(), unit_target());
   Rng rng(7, Stream::tests, 0);
   const double power = emitter.sample(rng).power;
   for (int i = 0; i < 1000; ++i) EXPECT_NEAR(emitter.sample(rng).power, power, 1e-9 * power);
@@ -213,7 +216,7 @@ TEST(Emission, RaysStartOutsideTheScene) {
   scene.extend(Vec3(10, 0, 0));
   const std::vector<Light> lights{parallel_light(Vec3(-1, 0.1, 0), 1.0), sky(1.0),
                                   PointLight{Vec3(1e6, 3, 2), Spectrum::Constant(1.0)}};
-  const Emitter emitter(lights, 0, unit_target(), scene);
+  const Emitter emitter(lights, 0, target_sphere(), scene);
   for (std::uint64_t i = 0; i < 1000; ++i) {
     Rng rng(7, Stream::tests, i);
     const double from_center = (emitter.sample(rng).origin - scene.center()).norm();
@@ -223,9 +226,9 @@ TEST(Emission, RaysStartOutsideTheScene) {
 }
 
 TEST(Emission, NoLightNoPhotons) {
-  EXPECT_FALSE(Emitter({}, 0, unit_target(), unit_target()).any());
+  EXPECT_FALSE(Emitter({}, 0, target_sphere(), unit_target()).any());
   const std::vector<Light> dark{sky(0.0)};
-  EXPECT_FALSE(Emitter(dark, 0, unit_target(), unit_target()).any());
+  EXPECT_FALSE(Emitter(dark, 0, target_sphere(), unit_target()).any());
 }
 
 }  // namespace

@@ -54,6 +54,11 @@ solver:
   svd_cut: 1e-14
   estimate_photons: 100
   divergence: differentiated
+  deposits: collisions
+  similarity: true
+  estimator: kernel
+  estimate_radius: 0.5
+  irradiance_samples: 5000
 )";
 
 // Right-angled tetrahedron with legs 1, outward oriented.
@@ -145,6 +150,11 @@ TEST(SceneReader, ReadsMaterialsAndSolver) {
   EXPECT_EQ(scene.solver.svd_cut, 1e-14);
   EXPECT_EQ(scene.solver.estimate_photons, 100u);
   EXPECT_EQ(scene.solver.divergence, Divergence::differentiated);
+  EXPECT_EQ(scene.solver.deposits, Deposits::collisions);
+  EXPECT_TRUE(scene.solver.similarity);
+  EXPECT_EQ(scene.solver.estimator, DensityEstimator::kernel);
+  EXPECT_EQ(scene.solver.estimate_radius, 0.5);
+  EXPECT_EQ(scene.solver.irradiance_samples, 5000u);
 }
 
 TEST(SceneReader, ScalesThenRotatesThenTranslates) {
@@ -205,14 +215,14 @@ TEST(SceneReader, MendedMeshIsReportedWithItsPlace) {
       << scene.warnings[0];
 }
 
-// Photons left out: 6e6 (0.01 / tolerance)^2, between 3e5 and 3e7.
+// Photons left out: 2e6 (0.01 / tolerance), between 2e5 and 3e7.
 TEST(SceneReader, PhotonsFollowTheTolerance) {
   const auto photons = [](const char* tolerance) {
     return read_text_scene(small_scene, {std::string("solver.tolerance=") + tolerance})
         .solver.photons;
   };
-  EXPECT_EQ(photons("0.02"), 1'500'000u);
-  EXPECT_EQ(photons("0.5"), 300'000u);
+  EXPECT_EQ(photons("0.02"), 1'000'000u);
+  EXPECT_EQ(photons("0.5"), 200'000u);
   EXPECT_EQ(photons("0.0001"), 30'000'000u);
 }
 
@@ -233,7 +243,7 @@ TEST(SceneReader, WhatIsLeftOutHasDefaults) {
   EXPECT_EQ(scene.solver.source, std::nullopt);
   EXPECT_EQ(scene.solver.exitance, std::nullopt);
   EXPECT_EQ(scene.solver.knots, std::nullopt);
-  EXPECT_EQ(scene.solver.photons, 6'000'000u);
+  EXPECT_EQ(scene.solver.photons, 2'000'000u);
   EXPECT_TRUE(scene.warnings.empty());
 }
 

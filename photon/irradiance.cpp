@@ -1,0 +1,49 @@
+#include "photon/irradiance.h"
+
+#include "trace/direct_light.h"
+
+namespace knotlight {
+namespace {
+
+constexpr std::size_t points_per_chunk = 256;  // about a millisecond of rays
+
+// Rays per sample to lights of some extent: what one sample lacks, the many around it have.
+constexpr int rays_per_sample = 8;
+
+}  // namespace
+
+double entering_irradiance(const Scene& scene, const RayCaster& caster, int channel,
+                           std::uint32_t object, const SurfacePoint& at, int rays, Rng& rng) {
+  const double ior = scene.objects[object].translucent()->ior;
+  const int needed = irradiance_is_exact(scene) ? 1 : rays;
+  double sum = 0.0;
+  for (int i = 0; i < needed; ++i)
+    sum += sample_irradiance(scene, caster, at.position, at.normal, rng, ior)[channel];
+  return sum / needed;
+}
+
+std::vector<IrradianceSample> sample_irradiances(const Scene& scene, const RayCaster& caster,
+                                                 int channel, std::uint32_t object,
+                                                 std::size_t count, std::uint64_t seed,
+                                                 std::uint64_t replicate, const Workers& workers) {
+  const Shape& shape = scene.objects[object].shape;
+  // Strata are keyed by the seed alone.
+  Rng own(seed, Stream::irradiance_points, replicate);
+  const std::uint64_t point_seed = own.next_u32();
+  const std::vector<SurfacePoint> points =
+      stratified_surface_points(shape, count, true, point_seed, Stream::irradiance_points);
+  const double area = surface_area(shape) / static_cast<double>(points.size());
+  std::vector<IrradianceSample> samples(points.size());
+  workers.for_chunks(
+      points.size(), points_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          Rng rng(point_seed, Stream::irradiance_rays, i);
+          samples[i] = {
+              points[i], area,
+              entering_irradiance(scene, caster, channel, object, points[i], rays_per_sample, rng)};
+        }
+      });
+  return samples;
+}
+
+}  // namespace knotlight
