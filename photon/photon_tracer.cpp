@@ -1,6 +1,8 @@
 #include "photon/photon_tracer.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 
 #include "photon/emission.h"
 #include "photon/photon_walk.h"
@@ -8,19 +10,42 @@
 namespace knotlight {
 namespace {
 
-// Photons per batch: the unit of work of a thread and of the spread behind standard errors.
-constexpr std::size_t largest_batch = 4096;
-// Few photons still make this many batches: the spread over 64 is known to 9 %.
-constexpr std::size_t wanted_batches = 64;
+// The unit of work of a thread and of the spread behind standard errors, which over so many batches
+// is known to 4 %.
+constexpr std::size_t wanted_batches = 256;
 
 // Light that comes back is a smaller and smoother part of the source than the first light, so a
 // quarter of the paths carries it with as little noise.
 constexpr double reentering_share = 0.25;
 
+// Takes the batches of all threads and hands them on in their order, so that sums have the same
+// bits for any number of threads. What waits is about one batch per thread.
+class InOrder {
+ public:
+  explicit InOrder(std::span<FluxTally> tallies) : tallies_(tallies) {}
+
+  void add(std::size_t batch, std::vector<FluxSums> sums) {
+    const std::lock_guard lock(mutex_);
+    waiting_.emplace(batch, std::move(sums));
+    for (auto next = waiting_.find(next_); next != waiting_.end(); next = waiting_.find(next_)) {
+      for (std::size_t i = 0; i < tallies_.size(); ++i) tallies_[i].add(next->second[i]);
+      waiting_.erase(next);
+      ++next_;
+    }
+  }
+
+ private:
+  std::span<FluxTally> tallies_;
+  std::mutex mutex_;
+  std::map<std::size_t, std::vector<FluxSums>> waiting_;
+  std::size_t next_ = 0;
+};
+
 }  // namespace
 
 TraceResult trace_photons(const Scene& scene, const RayCaster& caster, int channel,
-                          const TracerOptions& options, const Workers& workers, Stage& stage) {
+                          const TracerOptions& options, const Workers& workers, Stage& stage,
+                          std::span<FluxTally> fluxes) {
   const std::size_t objects = scene.objects.size();
   TraceResult result;
   result.photons.resize(objects);
@@ -38,28 +63,31 @@ TraceResult trace_photons(const Scene& scene, const RayCaster& caster, int chann
                         walk.passage().scene_bounds());
   if (!emitter.any() || options.photons == 0) return result;
 
-  const std::size_t batch_size =
-      std::clamp<std::size_t>(options.photons / wanted_batches, 1, largest_batch);
-  const std::size_t batches = (options.photons + batch_size - 1) / batch_size;
+  const std::size_t batches = std::min(options.photons, wanted_batches);
   std::vector<WalkRecord> records(batches);
   std::vector<double> emitted(batches, 0.0);
   std::vector<std::size_t> sizes(batches);
-  workers.for_chunks(options.photons, batch_size,
-                     [&](std::size_t batch, std::size_t begin, std::size_t end) {
-                       WalkRecord record{std::vector<std::vector<VolumePhoton>>(objects),
-                                         std::vector<PowerTally>(objects)};
-                       for (std::size_t i = begin; i < end; ++i) {
-                         Rng rng(options.seed, Stream::photons, i);
-                         EmittedPhoton photon = emitter.sample(rng);
-                         photon.power /= static_cast<double>(options.photons);
-                         if (photon.power == 0.0) continue;
-                         emitted[batch] += photon.power;
-                         walk.run(photon, rng, record);
-                       }
-                       sizes[batch] = end - begin;
-                       records[batch] = std::move(record);
-                       stage.advance(end - begin);
-                     });
+  InOrder flux_batches(fluxes);
+  workers.for_chunks(batches, 1, [&](std::size_t batch, std::size_t, std::size_t) {
+    WalkRecord record{
+        std::vector<std::vector<VolumePhoton>>(objects), std::vector<PowerTally>(objects), {}};
+    for (const FluxTally& flux : fluxes) record.fluxes.push_back(flux.batch());
+    // Sizes differ by one at most.
+    const std::size_t begin = options.photons * batch / batches;
+    const std::size_t end = options.photons * (batch + 1) / batches;
+    for (std::size_t i = begin; i < end; ++i) {
+      Rng rng(options.seed, Stream::photons, i);
+      EmittedPhoton photon = emitter.sample(rng);
+      photon.power /= static_cast<double>(options.photons);
+      if (photon.power == 0.0) continue;
+      emitted[batch] += photon.power;
+      walk.run(photon, rng, record);
+    }
+    sizes[batch] = end - begin;
+    flux_batches.add(batch, std::move(record.fluxes));
+    records[batch] = std::move(record);
+    stage.advance(end - begin);
+  });
 
   for (const double power : emitted) result.emitted += power;
   for (std::size_t object = 0; object < objects; ++object) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "photon/energy_audit.h"
+#include "photon/flux_tally.h"
 #include "photon/volume_photon.h"
 #include "scene/scene.h"
 #include "trace/ray_caster.h"
@@ -38,8 +40,10 @@ struct TraceResult {
 // them. Light that leaves one translucent object and enters another starts there at order 1 again.
 // With Orders::first the audit's `absorbed` is 0: all that interacts is `unfollowed`; with
 // Orders::reentering `unfollowed` may be negative, since some paths go on with more power. The bar
-// of `stage` counts photons.
+// of `stage` counts photons. `fluxes` (of translucent objects of this scene) receive the light of
+// all photons followed; with Orders::all they are the solution of the transfer equation.
 TraceResult trace_photons(const Scene& scene, const RayCaster& caster, int channel,
-                          const TracerOptions& options, const Workers& workers, Stage& stage);
+                          const TracerOptions& options, const Workers& workers, Stage& stage,
+                          std::span<FluxTally> fluxes = {});
 
 }  // namespace knotlight

@@ -93,6 +93,12 @@ void PhotonWalk::walk_inside(Flight& flight, Rng& rng, WalkRecord& record) const
   PowerTally& tally = record.tally[flight.object];
   const double distance = sample_free_flight(rng.uniform(), item.sigma_t);
   const auto hit = passage_.next_inside(flight, distance);
+  if (!record.fluxes.empty()) {
+    const double length = hit ? (hit->position - flight.position).dot(flight.direction) : distance;
+    const FreeFlight free{flight.position, flight.direction, length, flight.power,
+                          flight.object,   flight.order,     !hit};
+    for (FluxSums& flux : record.fluxes) flux.add(free);
+  }
   if (!hit) {
     flight.position += distance * flight.direction;
     flight.on_surface = false;
@@ -160,7 +166,9 @@ void PhotonWalk::interact(Flight& flight, Rng& rng, WalkRecord& record) const {
     return;
   }
   const double u = rng.uniform();
-  flight.direction = sample_henyey_greenstein(flight.direction, item.g, u, rng.uniform());
+  const double v = rng.uniform();
+  flight.direction = item.g == 0.0 ? sample_sphere(u, v)
+                                   : sample_henyey_greenstein(flight.direction, item.g, u, v);
 }
 
 }  // namespace knotlight

@@ -6,6 +6,7 @@
 #include "core/rng.h"
 #include "photon/emission.h"
 #include "photon/energy_audit.h"
+#include "photon/flux_tally.h"
 #include "photon/passage.h"
 #include "photon/volume_photon.h"
 #include "scene/scene.h"
@@ -17,6 +18,7 @@ namespace knotlight {
 struct WalkRecord {
   std::vector<std::vector<VolumePhoton>> photons;
   std::vector<PowerTally> tally;
+  std::vector<FluxSums> fluxes;  // any number, of any objects; none costs nothing
 };
 
 // The scene in one channel as a photon sees it, and the rules it walks by:

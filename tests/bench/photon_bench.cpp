@@ -22,13 +22,19 @@ Scene torus_scene() {
                                   {testing_scenes::translucent(torus_mesh(80, 40), medium)});
 }
 
-void trace_benchmark(benchmark::State& state, TracerOptions::Orders orders, bool store) {
+// cells: per axis of a grid of fluxes around the torus; 0 = none.
+void trace_benchmark(benchmark::State& state, TracerOptions::Orders orders, bool store,
+                     int cells = 0) {
   const Scene scene = torus_scene();
   constexpr std::size_t photons = 50'000;
+  std::vector<FluxTally> fluxes;
+  if (const Bounds b = bounds(scene.objects[0].shape); cells > 0)
+    fluxes.emplace_back(FluxGrid{b.lo, b.hi, {cells, cells, cells}}, 0, scene.objects[0].shape,
+                        medium);
   double arrived = 0.0;
   double interactions = 0.0;  // per arrived photon
   for (auto _ : state) {
-    const TraceResult r = trace(scene, orders, photons, store, 1);
+    const TraceResult r = trace(scene, orders, photons, store, 1, 1, fluxes);
     arrived += static_cast<double>(r.audit[0].photons);
     interactions = r.audit[0].interactions / r.audit[0].incident;
   }
@@ -41,6 +47,10 @@ void trace_benchmark(benchmark::State& state, TracerOptions::Orders orders, bool
 BENCHMARK_CAPTURE(trace_benchmark, first_order, TracerOptions::Orders::first, true)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(trace_benchmark, all_orders, TracerOptions::Orders::all, false)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(trace_benchmark, fluxes_in_one_cell, TracerOptions::Orders::all, false, 1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(trace_benchmark, fluxes_in_32_cubed_cells, TracerOptions::Orders::all, false, 32)
     ->Unit(benchmark::kMillisecond);
 
 // Rays from inside in random directions, as long as given: a photon's free flights are short.
@@ -60,6 +70,28 @@ void bare_rays(benchmark::State& state) {
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(bare_rays)->ArgName("short")->Arg(0)->Arg(1);
+
+// The flights between interactions that photons of all orders made, cast again and nothing else:
+// what the walk could reach at best.
+void bare_flights(benchmark::State& state) {
+  const Scene scene = torus_scene();
+  const auto caster = caster_of(scene);
+  const std::vector<VolumePhoton> photons =
+      trace(scene, TracerOptions::Orders::all, 20'000, true).photons[0];
+  std::vector<Ray> flights;
+  for (std::size_t i = 1; i < photons.size(); ++i)
+    if (photons[i].order == photons[i - 1].order + 1 && photons[i - 1].order > 0)
+      flights.push_back({photons[i - 1].position, photons[i].direction,
+                         (photons[i].position - photons[i - 1].position).norm()});
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(caster->nearest(flights[i]));
+    if (++i == flights.size()) i = 0;
+  }
+  state.counters["rays/s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK(bare_flights);
 
 void build_tree(benchmark::State& state) {
   const std::vector<VolumePhoton> photons =
