@@ -136,8 +136,8 @@ double Emitter::power_estimate(const AreaLight& light) const {
 }
 
 EmittedPhoton Emitter::ray_of(const AreaLight& light, const std::array<double, 4>& u) const {
-  const double a = 2.0 * u[0] - 1.0;
-  const double b = 2.0 * u[1] - 1.0;
+  const double a = 2.0 * u[2] - 1.0;
+  const double b = 2.0 * u[3] - 1.0;
   const Vec3 p = light.center + a * light.u + b * light.v;
   const Vec3 n = light.normal();
   const double radiosity = light.radiance[channel_] * light.area();  // W/sr at the normal
@@ -145,10 +145,10 @@ EmittedPhoton Emitter::ray_of(const AreaLight& light, const std::array<double, 4
   // way the mean is right.
   const Cone cone = cone_from(p);
   if (cone.solid_angle() >= pi) {
-    const Vec3 d = Frame(n).to_world(sample_cosine_hemisphere(u[2], u[3]));
+    const Vec3 d = Frame(n).to_world(sample_cosine_hemisphere(u[0], u[1]));
     return {start(p, d), d, radiosity * pi};
   }
-  const Vec3 d = Frame(cone.axis).to_world(sample_narrow_cone(u[2], u[3], cone.cosine_max_deficit));
+  const Vec3 d = Frame(cone.axis).to_world(sample_narrow_cone(u[0], u[1], cone.cosine_max_deficit));
   return {start(p, d), d, radiosity * std::max(0.0, n.dot(d)) * cone.solid_angle()};
 }
 
@@ -173,13 +173,13 @@ EmittedPhoton Emitter::ray_of(const EnvironmentLight& light, const std::array<do
   const double disc = pi * radius_ * radius_;
   const double tint = light.radiance[channel_];
   if (!light.map) {
-    const Vec3 d = sample_sphere(u[0], u[1]);
-    return {start_of_parallel_ray(d, u[2], u[3]), d, tint * 4.0 * pi * disc};
+    const Vec3 d = sample_sphere(u[2], u[3]);
+    return {start_of_parallel_ray(d, u[0], u[1]), d, tint * 4.0 * pi * disc};
   }
-  const EnvironmentMap::Sample s = light.map->sample(u[0], u[1]);
+  const EnvironmentMap::Sample s = light.map->sample(u[2], u[3]);
   const double radiance = tint * light.map->radiance(s.direction)[channel_];
   const Vec3 d = -s.direction;
-  return {start_of_parallel_ray(d, u[2], u[3]), d, radiance / s.pdf * disc};
+  return {start_of_parallel_ray(d, u[0], u[1]), d, radiance / s.pdf * disc};
 }
 
 }  // namespace knotlight

@@ -42,8 +42,9 @@ class Emitter {
   // How many uniform numbers a ray of the light takes, 2 or 4: those of one dimension have to be
   // independent of the others only.
   int dimensions(std::size_t light) const;
-  // The ray of `light` for the numbers u in [0, 1); its power is what it would carry as the only
-  // ray of this light.
+  // The ray of `light` for the numbers u in [0, 1): the first two say where on the target it goes,
+  // the others where on the light, or in the sky, it comes from. Its power is what it would carry
+  // as the only ray of this light.
   EmittedPhoton ray(std::size_t light, const std::array<double, 4>& u) const;
 
  private:

@@ -146,7 +146,8 @@ FirstLight trace_first_light(const Scene& scene, const RayCaster& caster, int ch
   const std::vector<std::size_t> counts = allot(emitter, options.rays);
   for (std::size_t light = 0; light < counts.size(); ++light) {
     const int dimensions = emitter.dimensions(light);
-    // One sequence per light, the last dimension for depth.
+    // One sequence per light. Place on the target and depth in the medium are its first three
+    // coordinates, since they say where the photon ends up; the place on the light follows.
     const LowDiscrepancy points(dimensions + 1, options.seed,
                                 options.replicate * emitter.lights() + light);
     const std::size_t chunks = (counts[light] + rays_per_chunk - 1) / rays_per_chunk;
@@ -159,14 +160,14 @@ FirstLight trace_first_light(const Scene& scene, const RayCaster& caster, int ch
                          for (std::size_t i = begin; i < end; ++i) {
                            std::array<double, 4> u{};
                            for (int d = 0; d < dimensions; ++d)
-                             u[static_cast<std::size_t>(d)] = points(i, d);
+                             u[static_cast<std::size_t>(d)] = points(i, d < 2 ? d : d + 1);
                            EmittedPhoton start = emitter.ray(light, u);
                            start.power /= static_cast<double>(counts[light]);
                            if (start.power == 0.0) continue;
                            emitted[chunk] += start.power;
-                           Rng rng(options.seed + options.replicate, Stream::surface_events,
-                                   light * options.rays + i);
-                           follower.follow(start, points(i, dimensions), rng, photons);
+                           Rng rng(options.seed, Stream::surface_events,
+                                   (options.replicate * counts.size() + light) << 32 | i);
+                           follower.follow(start, points(i, 2), rng, photons);
                          }
                          parts[chunk] = std::move(photons);
                          stage.advance(end - begin);

@@ -88,6 +88,8 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
                       {"iterations", static_cast<double>(halves[0].iterations)},
                       {"linear_residual", std::max(halves[0].residual, halves[1].residual)},
                       {"sources_lost", lost},
+                      {"discrete_energy_imbalance",
+                       std::max(std::abs(halves[0].imbalance), std::abs(halves[1].imbalance))},
                       {"largest_grid_difference", estimate.largest}};
   solution.U_d = [field](const Points& x) { return field.values(x); };
   return solution;
