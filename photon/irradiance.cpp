@@ -7,9 +7,6 @@ namespace {
 
 constexpr std::size_t points_per_chunk = 256;  // about a millisecond of rays
 
-// Rays per sample to lights of some extent: what one sample lacks, the many around it have.
-constexpr int rays_per_sample = 8;
-
 }  // namespace
 
 double entering_irradiance(const Scene& scene, const RayCaster& caster, int channel,
@@ -24,7 +21,7 @@ double entering_irradiance(const Scene& scene, const RayCaster& caster, int chan
 
 std::vector<IrradianceSample> sample_irradiances(const Scene& scene, const RayCaster& caster,
                                                  int channel, std::uint32_t object,
-                                                 std::size_t count, std::uint64_t seed,
+                                                 std::size_t count, int rays, std::uint64_t seed,
                                                  std::uint64_t replicate, const Workers& workers) {
   const Shape& shape = scene.objects[object].shape;
   // Strata are keyed by the seed alone.
@@ -38,9 +35,8 @@ std::vector<IrradianceSample> sample_irradiances(const Scene& scene, const RayCa
       points.size(), points_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           Rng rng(point_seed, Stream::irradiance_rays, i);
-          samples[i] = {
-              points[i], area,
-              entering_irradiance(scene, caster, channel, object, points[i], rays_per_sample, rng)};
+          samples[i] = {points[i], area,
+                        entering_irradiance(scene, caster, channel, object, points[i], rays, rng)};
         }
       });
   return samples;

@@ -22,11 +22,11 @@ struct IrradianceSample {
 double entering_irradiance(const Scene& scene, const RayCaster& caster, int channel,
                            std::uint32_t object, const SurfacePoint& at, int rays, Rng& rng);
 
-// `count` samples, one in each stratum of equal area. `replicate` gives independent sets under one
-// seed. Same bits for any number of workers.
+// `count` samples, one in each stratum of equal area, each from `rays` rays. `replicate` gives
+// independent sets under one seed. Same bits for any number of workers.
 std::vector<IrradianceSample> sample_irradiances(const Scene& scene, const RayCaster& caster,
                                                  int channel, std::uint32_t object,
-                                                 std::size_t count, std::uint64_t seed,
+                                                 std::size_t count, int rays, std::uint64_t seed,
                                                  std::uint64_t replicate, const Workers& workers);
 
 }  // namespace knotlight

@@ -18,6 +18,9 @@ constexpr double returning_share = 0.25;
 // the mean free path between them and the surface to even out; sources on the surface do not.
 constexpr double samples_below = 60.0;
 constexpr double samples_on = 400.0;
+// Rays per sample to lights of some extent: where samples are few each has to be good.
+constexpr int rays_below = 8;
+constexpr int rays_on = 1;
 constexpr double fewest_samples = 5e3, most_samples = 2e6;
 
 std::size_t sample_count(const Scene& scene, std::uint32_t object, int channel, SourceModel model) {
@@ -120,8 +123,9 @@ std::vector<IncidentLight> trace_incident_light(const PreparedScene& prepared, i
         const std::uint32_t object = prepared.translucent[i];
         result[i].halves[half].irradiance = sample_irradiances(
             scene, *prepared.caster, channel, object,
-            std::max<std::size_t>(1, sample_count(scene, object, channel, model) / 2), seed,
-            2 * object + half, workers);
+            std::max<std::size_t>(1, sample_count(scene, object, channel, model) / 2),
+            model == SourceModel::boundary_flux ? rays_on : rays_below, seed, 2 * object + half,
+            workers);
       }
     }
   }

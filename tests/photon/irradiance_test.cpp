@@ -18,7 +18,7 @@ double entered_power(const Scene& scene, std::size_t count, int threads = 2) {
   const auto caster = caster_of(scene);
   double sum = 0.0;
   for (const IrradianceSample& s :
-       sample_irradiances(scene, *caster, 0, 0, count, 1, 0, Workers(threads)))
+       sample_irradiances(scene, *caster, 0, 0, count, 4, 1, 0, Workers(threads)))
     sum += s.entered * s.area;
   return sum;
 }
@@ -45,7 +45,8 @@ TEST(Irradiance, UnderASkyItIsExact) {
   const Scene scene =
       scene_of({sky(0.7)}, {translucent(Sphere{Vec3::Zero(), 1.0}, {1.0, 9.0, 0.0, 1.0, 0.0})});
   const auto caster = caster_of(scene);
-  for (const IrradianceSample& s : sample_irradiances(scene, *caster, 0, 0, 500, 1, 0, Workers(1)))
+  for (const IrradianceSample& s :
+       sample_irradiances(scene, *caster, 0, 0, 500, 4, 1, 0, Workers(1)))
     ASSERT_NEAR(s.entered, 0.7 * pi, 1e-12);
   EXPECT_NEAR(entered_power(scene, 500), 0.7 * pi * 4.0 * pi, 1e-9);
 }
@@ -55,9 +56,9 @@ TEST(Irradiance, ReplicatesAndThreads) {
   const Scene scene = scene_of({parallel_light(-Vec3::UnitZ(), 1.0)},
                                {translucent(torus_mesh(32, 16), {1.0, 9.0, 0.0, 1.0, 0.0})});
   const auto caster = caster_of(scene);
-  const auto a = sample_irradiances(scene, *caster, 0, 0, 1000, 1, 0, Workers(1));
-  const auto b = sample_irradiances(scene, *caster, 0, 0, 1000, 1, 0, Workers(3));
-  const auto c = sample_irradiances(scene, *caster, 0, 0, 1000, 1, 1, Workers(1));
+  const auto a = sample_irradiances(scene, *caster, 0, 0, 1000, 4, 1, 0, Workers(1));
+  const auto b = sample_irradiances(scene, *caster, 0, 0, 1000, 4, 1, 0, Workers(3));
+  const auto c = sample_irradiances(scene, *caster, 0, 0, 1000, 4, 1, 1, Workers(1));
   EXPECT_EQ(a[17].surface.position, b[17].surface.position);
   EXPECT_EQ(a[500].entered, b[500].entered);
   EXPECT_NE(a[17].surface.position, c[17].surface.position);
