@@ -7,6 +7,7 @@
 
 #include "core/medium.h"
 #include "photon/volume_photon.h"
+#include "scene/scene.h"
 #include "trace/ray_caster.h"
 
 namespace knotlight {
@@ -21,15 +22,31 @@ struct ReducedIncident {
 };
 
 struct EstimateOptions {
-  std::size_t nearest =
-      200;  // photons that set the ball's radius, unless max_radius is smaller; > 1
+  // Photons that set the ball's radius, unless max_radius is smaller; > 1. Not used by
+  // DensityEstimator::radius.
+  std::size_t nearest = 200;
   double max_radius = 0.25;  // in mean free paths 1/sigma_t
   // Light on its first flight falls off along its direction by a known factor, so each
   // first-interaction photon is carried along its ray to the plane through x: its weight is
   // exp(sigma_t w.(p - x)). Without it a half-ball on a lit surface is 3/8 sigma_t r too dark. Has
   // no effect on a map of all orders.
   bool undo_attenuation = true;
+  // nearest: all photons of the ball count alike. radius: the same, the ball always of max_radius.
+  // kernel: a smooth kernel over the ball of `nearest`.
+  DensityEstimator estimator = DensityEstimator::nearest;
+  // With undo_attenuation: photons that come in beams (beams.h) are not carried; their fall-off
+  // across the ball, curved surface and spreading rays included, is part of what the estimate
+  // divides by.
+  bool beams = true;
+  // The other photons' density may have a slope that their own rays do not tell: fit it and carry
+  // the photons along it too (slope_fit.h). Takes the bias of slanted light at the surface away,
+  // for up to twice the noise there.
+  bool fit_slope = true;
 };
+
+// What docs/results/estimators.md found best for a map of this many photons: 2 sqrt(photons) of
+// them in a ball of at most one mean free path.
+EstimateOptions default_estimate(std::size_t photons);
 
 class VolumePhotonMap {
  public:
@@ -48,8 +65,9 @@ class VolumePhotonMap {
   // U_ri and Q_ri at x, inside the object or on its surface, from the nearest photons:
   //   U_ri = (1/4pi) (1/sigma_t) sum dPhi / V,  Q_ri = g (sigma_s/sigma_t) sum dPhi w / V,
   // V = the part of the ball that lies inside the object ([V09 6.19-6.20], corrected:
-  // docs/theory.md). The ball reaches to the k-th nearest photon and counts the k - 1 before it,
-  // which makes the density unbiased; or to max_radius, whichever is nearer.
+  // docs/theory.md); with a kernel, V = its mass there and each photon has the kernel's weight. The
+  // ball reaches to the k-th nearest photon and counts the k - 1 before it, which makes the density
+  // unbiased; or to max_radius, whichever is nearer.
   ReducedIncident estimate(const Vec3& x, const EstimateOptions& options, const RayCaster& caster,
                            std::uint32_t object) const;
 

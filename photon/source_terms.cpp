@@ -17,6 +17,7 @@ double differentiated_divergence(const Vec3& x, const VolumePhotonMap& map, cons
                                  std::uint32_t object) {
   EstimateOptions plain = options.estimate;
   plain.undo_attenuation = false;
+  plain.fit_slope = false;
   const double h = options.difference_step / medium.sigma_t();
   const SurfacePoint surface = caster.nearest_surface_point(x, object);
   const bool near_surface = (x - surface.position).norm() < h;

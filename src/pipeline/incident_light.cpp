@@ -72,9 +72,11 @@ double IncidentLight::entered_power() const {
   return sum;
 }
 
-EstimateOptions estimate_options(const SolverSettings& settings) {
-  EstimateOptions options;
+EstimateOptions estimate_options(const SolverSettings& settings, std::size_t photons) {
+  EstimateOptions options = default_estimate(photons);
+  options.estimator = settings.estimator;
   if (settings.estimate_photons) options.nearest = *settings.estimate_photons;
+  if (settings.estimate_radius) options.max_radius = *settings.estimate_radius;
   return options;
 }
 

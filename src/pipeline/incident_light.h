@@ -28,8 +28,8 @@ struct IncidentLight {
   double entered_power() const;  // W, by the irradiance samples
 };
 
-// How the scene wants densities estimated.
-EstimateOptions estimate_options(const SolverSettings& settings);
+// How the scene wants densities estimated in a map of so many photons.
+EstimateOptions estimate_options(const SolverSettings& settings, std::size_t photons);
 
 // One entry per translucent object (PreparedScene::translucent). Advances the stage by
 // incident_light_work.

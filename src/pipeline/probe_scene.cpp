@@ -18,9 +18,6 @@ namespace {
 
 constexpr double surface_slack = 1e-3;  // of the object's size: fixed by the command's contract
 constexpr std::size_t points_per_chunk = 64;
-// A density estimate at a probe may reach this many mean free paths where photons are few: a single
-// value is wanted there, not a source to be integrated.
-constexpr double probe_radius = 1.0;
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\"");
@@ -126,8 +123,6 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
   const PreparedScene prepared = prepare_scene(path, run);
   const SolvedScene solved = solve_scene(prepared, run);
   const auto maps = first_light_maps(prepared, run);
-  EstimateOptions estimate = estimate_options(prepared.scene.solver);
-  estimate.max_radius = probe_radius;
 
   std::vector<std::string> rows(points.size());
   {
@@ -145,10 +140,11 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
               }
               const SolvedChannel& channel =
                   solved.objects[place->object][static_cast<std::size_t>(c)];
-              const double U_ri = maps[static_cast<std::size_t>(c)][place->object]
-                                      .estimate(place->point, estimate, *prepared.caster,
-                                                prepared.translucent[place->object])
-                                      .U_ri;
+              const VolumePhotonMap& map = maps[static_cast<std::size_t>(c)][place->object];
+              const double U_ri =
+                  map.estimate(place->point, estimate_options(prepared.scene.solver, map.size()),
+                               *prepared.caster, prepared.translucent[place->object])
+                      .U_ri;
               // This model solves for both together.
               const double in_U_d = channel.model == SourceModel::boundary_flux ? U_ri : 0.0;
               row += fmt::format(",{},{}", channel.U_d_at(place->point) - in_U_d, U_ri);

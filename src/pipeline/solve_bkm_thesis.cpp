@@ -68,12 +68,12 @@ void add_thesis_irradiance(SourceTerms& terms, const Places& knots, const Eigen:
 RightHandSides right_hand_sides(const Places& places, const VolumePhotonMap (&maps)[2],
                                 bool at_knots, const ChannelProblem& p) {
   SourceTermOptions options;
-  options.estimate = estimate_options(p.settings);
   options.boundary = p.settings.boundary;
   options.divergence = p.settings.divergence;
   RightHandSides result;
   for (std::size_t half = 0; half < 2; ++half) {
     SourceTerms& terms = result.halves[half];
+    options.estimate = estimate_options(p.settings, maps[half].size());
     terms = source_terms(places.surface.positions, places.surface.normals, places.interior,
                          maps[half], p.medium, options, p.caster, p.object, p.workers);
     if (p.light.model == SourceModel::photon_map) continue;

@@ -79,5 +79,26 @@ TEST_F(BallVolume, LensOfTwoSpheres) {
   }
 }
 
+// Smooth kernel (1 - s^2)^2 on a plane face: half of 4 pi r^3 (1/3 - 2/5 + 1/7), and its first
+// moment along the inward normal, 2 pi r^4 (1/4 - 1/3 + 1/8) / 2.
+TEST_F(BallVolume, SmoothKernelOnAFace) {
+  const double r = 0.5;
+  const KernelMoments m =
+      kernel_moments_inside(Vec3(0.3, 0.2, 3.0), r, RadialKernel::smooth, caster_, 0);
+  const double whole = 4.0 * pi * r * r * r * 8.0 / 105.0;
+  EXPECT_NEAR(m.mass, 0.5 * whole, 1e-3 * whole);
+  EXPECT_NEAR(m.first.z(), -pi * r * r * r * r / 24.0, 0.01 * r * whole);
+  EXPECT_LT(m.first.head<2>().norm(), 0.01 * r * whole);
+  EXPECT_NEAR(kernel_moments_inside(Vec3(0.3, 0.2, 2.0), r, RadialKernel::smooth, caster_, 0).mass,
+              whole, 1e-12);
+}
+
+// The ball's centroid in the half of it: 3/8 of the radius inside.
+TEST_F(BallVolume, CentroidOfHalfABall) {
+  const KernelMoments m =
+      kernel_moments_inside(Vec3(3.0, 0.1, 0.2), 0.4, RadialKernel::ball, caster_, 0);
+  EXPECT_NEAR((m.first / m.mass).x(), -0.375 * 0.4, 0.01 * 0.4);
+}
+
 }  // namespace
 }  // namespace knotlight
