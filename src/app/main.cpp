@@ -12,11 +12,14 @@
 #include "core/errors.h"
 #include "core/file_io.h"
 #include "core/image_io.h"
+#include "pipeline/compare.h"
 #include "pipeline/info.h"
 #include "pipeline/probe_scene.h"
 #include "pipeline/render_scene.h"
 #include "pipeline/report_json.h"
 #include "pipeline/run_options.h"
+#include "pipeline/validate.h"
+#include "pipeline/validate_report.h"
 #include "scene/nearest_name.h"
 
 namespace knotlight {
@@ -27,14 +30,12 @@ struct CommandLine {
   std::string output;
   std::string points;
   bool json_wanted = false;
+  CompareOptions compare;
+  ValidateOptions validate;
   RunOptions options;
 };
 
-void add_common_options(CLI::App& command, CommandLine& line) {
-  command.add_option("scene", line.scene, "scene file (YAML)")->required();
-  command.add_option("--set", line.options.overrides, "override a scene key: path.to.key=value")
-      ->allow_extra_args(false)
-      ->take_all();
+void add_run_options(CLI::App& command, CommandLine& line) {
   command.add_option("--seed", line.options.seed, "seed of all random numbers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
@@ -42,6 +43,14 @@ void add_common_options(CLI::App& command, CommandLine& line) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command.add_flag("--quiet", line.options.quiet, "print nothing but errors");
+}
+
+void add_common_options(CLI::App& command, CommandLine& line) {
+  command.add_option("scene", line.scene, "scene file (YAML)")->required();
+  command.add_option("--set", line.options.overrides, "override a scene key: path.to.key=value")
+      ->allow_extra_args(false)
+      ->take_all();
+  add_run_options(command, line);
 }
 
 // Without -o a picture goes to the working folder under the scene's name, as .exr to measure and as
@@ -95,6 +104,15 @@ int probe(const CommandLine& line, RunContext& run) {
   return judge(report);
 }
 
+int compare(const CommandLine& line, RunContext& run) {
+  Scene scene;
+  const Report report = compare_scene(line.scene, line.output, line.compare, run, scene);
+  write_summary(line, "compare", report, scene, run);
+  if (!line.options.quiet)
+    fmt::print("{}\n", (std::filesystem::path(line.output) / "index.html").string());
+  return judge(report);
+}
+
 int info(const CommandLine& line, RunContext& run) {
   Scene scene;
   const Report report = inspect_scene(line.scene, line.json_wanted, run, scene);
@@ -104,6 +122,14 @@ int info(const CommandLine& line, RunContext& run) {
     fmt::print("{}", describe(report, scene));
   write_summary(line, "info", report, scene, run);
   return exit_ok;
+}
+
+int validate_program(const CommandLine& line, RunContext& run) {
+  const Validation validation = validate(line.validate, run);
+  if (!line.options.quiet) fmt::print("{}", validation_text(validation));
+  if (!line.options.json.empty()) write_text_file(line.options.json, validation_json(validation));
+  if (!line.output.empty()) write_validation(validation, line.output);
+  return validation.failed() == 0 ? exit_ok : exit_failure;
 }
 
 // Ctrl-C ends the program at once: files appear by renaming, so only a pending temporary has to go.
@@ -135,7 +161,24 @@ int run_program(int argc, char** argv) {
   CLI::App& info_command =
       *app.add_subcommand("info", "say what the scene is and what would be solved");
   add_common_options(info_command, line);
-  for (CLI::App* command : {&render_command, &probe_command})
+  CLI::App& compare_command =
+      *app.add_subcommand("compare", "source models side by side: pictures, charts, one page");
+  add_common_options(compare_command, line);
+  compare_command.add_option("-o,--output", line.output, "folder to write to")->required();
+  compare_command
+      .add_option("--photons", line.compare.photons,
+                  "rays of the photon map per channel, in place of solver.photons; left out: as "
+                  "many as bring the noise near the tolerance")
+      ->check(CLI::PositiveNumber);
+  CLI::App& validate_command = *app.add_subcommand(
+      "validate", "the whole program on cases whose answer is known; exit code 1 if any fails");
+  add_run_options(validate_command, line);
+  validate_command.add_option("-o,--output", line.output,
+                              "folder for tables, charts and a page; default: none");
+  validate_command.add_option("--only", line.validate.only, "the cases whose name contains this");
+  validate_command.add_flag("--quick", line.validate.quick,
+                            "the few small cases that together see every factor; seconds");
+  for (CLI::App* command : {&render_command, &probe_command, &compare_command, &validate_command})
     command->add_option("--json", line.options.json, "write a summary to this file");
   CLI::Option* info_json =
       info_command
@@ -144,7 +187,7 @@ int run_program(int argc, char** argv) {
                       "standard output if none is named")
           ->expected(0, 1);
 
-  const std::vector<std::string> names = {"render", "probe", "info"};
+  const std::vector<std::string> names = {"render", "probe", "compare", "validate", "info"};
   if (argc < 2)
     throw InputError(
         fmt::format("no command given, expected {} (see knotlight --help)", one_of(names)));
@@ -167,6 +210,8 @@ int run_program(int argc, char** argv) {
   RunContext run(line.options, bars);
   if (render_command.parsed()) return render(line, run);
   if (probe_command.parsed()) return probe(line, run);
+  if (compare_command.parsed()) return compare(line, run);
+  if (validate_command.parsed()) return validate_program(line, run);
   return info(line, run);
 }
 
