@@ -22,8 +22,18 @@ constexpr double least_share = 1e-3;
 // means that rounding has caught the light in an edge.
 constexpr int most_events = 10'000;
 
+// Ends of flights that carry less than this share of the light at their start are left out.
+constexpr double nothing_left = 1e-12;
+
 struct Branch : LightRay {
   double power = 0.0;
+  Vec3 normal = Vec3::Zero();  // outward, of the surface that it starts on; zero: on none
+};
+
+// What is left behind, per scene object.
+struct Deposit {
+  std::vector<std::vector<VolumePhoton>> photons;
+  std::vector<std::vector<FlightEnd>> ends;
 };
 
 // Follows one ray with all its branches.
@@ -32,9 +42,8 @@ class RayFollower {
   RayFollower(const Passage& passage, const FirstLightOptions& options)
       : passage_(passage), options_(options) {}
 
-  // offset: of the stratified depths, in [0, 1). Adds to photons[object].
-  void follow(const EmittedPhoton& start, double offset, Rng& rng,
-              std::vector<std::vector<VolumePhoton>>& photons) {
+  // offset: of the stratified depths, in [0, 1). Adds to the deposit.
+  void follow(const EmittedPhoton& start, double offset, Rng& rng, Deposit& deposit) {
     least_power_ = least_share * start.power;
     offset_ = offset;
     Branch first;
@@ -54,7 +63,7 @@ class RayFollower {
         branch.power = least_power_;
       }
       if (branch.inside)
-        cross(branch, photons);
+        cross(branch, deposit);
       else
         arrive(branch);
     }
@@ -70,7 +79,7 @@ class RayFollower {
   }
 
   // A medium from where the light is to where it leaves.
-  void cross(const Branch& branch, std::vector<std::vector<VolumePhoton>>& photons) {
+  void cross(const Branch& branch, Deposit& deposit) {
     const Passage::Item& item = passage_.item(branch.object);
     const auto hit = passage_.next_inside(branch, std::numeric_limits<double>::infinity());
     if (!hit) return;  // the way out was missed: rounding
@@ -81,12 +90,19 @@ class RayFollower {
     else
       gauss_depths(tau, options_.points_per_ray, depths_);
     for (const DepthPoint& point : depths_)
-      photons[branch.object].push_back(
+      deposit.photons[branch.object].push_back(
           {branch.position + point.optical_depth / item.sigma_t * branch.direction,
            branch.direction, branch.power * point.weight, 1});
-    if (hit->object != branch.object) return;  // an opaque object inside the medium
     Branch rest = branch;
     rest.power *= std::exp(-tau);
+    if (item.g != 0.0) {
+      std::vector<FlightEnd>& ends = deposit.ends[branch.object];
+      ends.push_back({branch.position, branch.normal, -branch.power});
+      if (rest.power > nothing_left * branch.power)
+        ends.push_back(
+            {hit->position, hit->object == branch.object ? hit->normal : Vec3::Zero(), rest.power});
+    }
+    if (hit->object != branch.object) return;  // an opaque object inside the medium
     if (branch.direction.dot(hit->normal) > 0.0) split(rest, *hit, 1.0 / item.ior, false);
   }
 
@@ -99,6 +115,7 @@ class RayFollower {
     next.position = hit.position;
     next.object = hit.object;
     next.on_surface = true;
+    next.normal = hit.normal;
     if (reflectance > 0.0) {
       next.direction = reflect(branch.direction, hit.normal);
       next.power = branch.power * reflectance;
@@ -121,6 +138,11 @@ class RayFollower {
   std::vector<DepthPoint> depths_;
 };
 
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
 // How many rays each light gets: by its share of the power, at least one each.
 std::vector<std::size_t> allot(const Emitter& emitter, std::size_t rays) {
   std::vector<std::size_t> counts;
@@ -138,6 +160,7 @@ FirstLight trace_first_light(const Scene& scene, const RayCaster& caster, int ch
   const std::size_t objects = scene.objects.size();
   FirstLight result;
   result.photons.resize(objects);
+  result.ends.resize(objects);
   const Passage passage(scene, caster, channel);
   if (!passage.target() || options.rays == 0) return result;
   const Emitter emitter(scene.lights, channel, *passage.target(), passage.scene_bounds());
@@ -151,11 +174,12 @@ FirstLight trace_first_light(const Scene& scene, const RayCaster& caster, int ch
     const LowDiscrepancy points(dimensions + 1, options.seed,
                                 options.replicate * emitter.lights() + light);
     const std::size_t chunks = (counts[light] + rays_per_chunk - 1) / rays_per_chunk;
-    std::vector<std::vector<std::vector<VolumePhoton>>> parts(chunks);
+    std::vector<Deposit> parts(chunks);
     std::vector<double> emitted(chunks, 0.0);
     workers.for_chunks(counts[light], rays_per_chunk,
                        [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                         std::vector<std::vector<VolumePhoton>> photons(objects);
+                         Deposit deposit{std::vector<std::vector<VolumePhoton>>(objects),
+                                         std::vector<std::vector<FlightEnd>>(objects)};
                          RayFollower follower(passage, options);
                          for (std::size_t i = begin; i < end; ++i) {
                            std::array<double, 4> u{};
@@ -167,16 +191,16 @@ FirstLight trace_first_light(const Scene& scene, const RayCaster& caster, int ch
                            emitted[chunk] += start.power;
                            Rng rng(options.seed, Stream::surface_events,
                                    (options.replicate * counts.size() + light) << 32 | i);
-                           follower.follow(start, points(i, 2), rng, photons);
+                           follower.follow(start, points(i, 2), rng, deposit);
                          }
-                         parts[chunk] = std::move(photons);
+                         parts[chunk] = std::move(deposit);
                          stage.advance(end - begin);
                        });
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
       result.emitted += emitted[chunk];
       for (std::size_t object = 0; object < objects; ++object) {
-        const std::vector<VolumePhoton>& part = parts[chunk][object];
-        result.photons[object].insert(result.photons[object].end(), part.begin(), part.end());
+        append(result.photons[object], parts[chunk].photons[object]);
+        append(result.ends[object], parts[chunk].ends[object]);
       }
     }
   }

@@ -26,12 +26,24 @@ struct FirstLightOptions {
   std::uint64_t replicate = 0;  // independent estimates under one seed
 };
 
+// Where a flight through a medium starts or ends.
+struct FlightEnd {
+  Vec3 position;
+  Vec3 normal;   // outward, of the surface there; zero where a light inside the medium starts it
+  double power;  // W: minus that of the light at the start, plus what is left at the end
+};
+
 struct FirstLight {
   // Per scene object, empty if not translucent: all of order 1, power = expected power that
   // interacts there first since it entered. Their sum is what PhotonWalk's first interactions
   // deliver in the mean, without light that was scattered before it entered
   // (TracerOptions::Orders::returned delivers that).
   std::vector<std::vector<VolumePhoton>> photons;
+  // Per scene object with g != 0: both ends of every flight. With them, the flux moment of the
+  // light needs no derivative: the sum over photons of power w . grad v has the expected value
+  // sigma_t times the sum of power v over photons, plus sigma_t times that over ends (partial
+  // integration along each flight).
+  std::vector<std::vector<FlightEnd>> ends;
   double emitted = 0.0;  // W, towards the sphere around the translucent objects
 };
 

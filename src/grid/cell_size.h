@@ -13,12 +13,17 @@ struct CellSize {
   bool limited = false;     // the budget, not the rule, has set h
 };
 
-// h = sqrt(tolerance / 0.01) min(0.5 / sigma_tr, size / 64): the field changes over a transport
-// mean free path and over the size of the object, and the error is of second order. The
-// measurements behind the numbers are in docs/grid.md. sigma_tr: the largest of the channels that
-// share the grid, 1/length. At most `most_cells` cells inside the object and 8 times as many in its
-// bounding box; 2 million take about 0.6 GiB.
-CellSize cell_size_for(const Shape& shape, double sigma_tr, double tolerance,
-                       std::size_t most_cells = 2'000'000);
+// h = sqrt(tolerance / 0.01) min(0.5 / sigma_tr, 0.75 / sigma_t, size / 64): the field changes over
+// a transport mean free path, over the layer in which light is first scattered (thinner than that
+// for g > 0) and over the size of the object, and the error is of second order. The measurements
+// behind the numbers are in docs/grid.md. sigma_tr, sigma_t: the largest of the channels that share
+// the grid, 1/length. At most `most_cells` cells inside the object and 8 times as many in its
+// bounding box.
+CellSize cell_size_for(const Shape& shape, double sigma_tr, double sigma_t, double tolerance,
+                       std::size_t most_cells);
+
+// What a tolerance may cost: 2 million cells, about 0.6 GiB, at 0.01 and above, more in proportion
+// below, 16 million at most.
+std::size_t cell_budget(double tolerance);
 
 }  // namespace knotlight

@@ -31,6 +31,10 @@ void GridLoad::add_source(const Vec3& position, double strength) {
   add(geometry_->locate(position), strength);
 }
 
+void GridLoad::add_source(const Vec3& position, const Vec3& normal, double strength) {
+  add(geometry_->locate(position, normal), strength);
+}
+
 void GridLoad::add_dipole(const Vec3& position, const Vec3& moment) {
   const Place place = geometry_->locate(position);
   if (place.piece < 0) {

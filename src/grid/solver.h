@@ -26,6 +26,8 @@ class GridLoad {
   void add_sources(const Points& positions, const Eigen::VectorXd& strengths);
   // One source. Not to be called from two threads at once.
   void add_source(const Vec3& position, double strength);
+  // The same on the surface, with its outward normal there.
+  void add_source(const Vec3& position, const Vec3& normal, double strength);
   // A source with a direction, the divergence of a flux: load int m . grad v for the test function
   // v. Light that scatters forwards: the photon of power P and direction w is the source q = 3
   // sigma_s sigma_tr P / (4 pi sigma_t) with the moment m = 3 g sigma_s P w / (4 pi sigma_t).

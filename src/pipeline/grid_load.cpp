@@ -8,15 +8,22 @@ namespace {
 
 using std::numbers::pi;
 
-// The weak form of docs/theory.md (5) and (7), tested with v: a first-interaction photon of power
-// dPhi flying along w gives
+// The weak form of docs/theory.md (12), tested with v: a first-interaction photon of power dPhi
+// flying along w gives
 //   3 sigma_s sigma_tr / (4 pi sigma_t) dPhi v  +  (3/4pi) g (sigma_s / sigma_t) dPhi w . grad v.
 // The boundary term with Q_ri . n cancels against the one from div Q_ri: no density has to be
-// estimated, anywhere.
-void add_photons(GridLoad& load, const std::vector<VolumePhoton>& photons, const Medium& m) {
+// estimated, anywhere. Where the ends of flights are known, the derivative goes too (14): it is
+// integrated along each flight, which leaves far less noise near the surface than dipoles.
+void add_photons(GridLoad& load, const IncidentHalf& half, const Medium& m) {
   const double strength = 3.0 * m.sigma_s * m.sigma_tr() / (4.0 * pi * m.sigma_t());
   const double moment = 3.0 / (4.0 * pi) * m.g * m.sigma_s / m.sigma_t();
-  for (const VolumePhoton& photon : photons) {
+  for (std::size_t i = 0; i < half.expected; ++i)
+    load.add_source(half.photons[i].position,
+                    (strength + moment * m.sigma_t()) * half.photons[i].power);
+  for (const FlightEnd& end : half.ends)
+    load.add_source(end.position, end.normal, moment * m.sigma_t() * end.power);
+  for (std::size_t i = half.expected; i < half.photons.size(); ++i) {
+    const VolumePhoton& photon = half.photons[i];
     load.add_source(photon.position, strength * photon.power);
     if (moment != 0.0) load.add_dipole(photon.position, moment * photon.power * photon.direction);
   }
@@ -66,7 +73,7 @@ std::vector<PointSource> sources_below(const std::vector<IrradianceSample>& samp
 GridLoad incident_load(const GridGeometry& geometry, const IncidentHalf& half,
                        const ChannelProblem& p) {
   GridLoad load(geometry);
-  add_photons(load, half.photons, p.medium);
+  add_photons(load, half, p.medium);
   if (p.light.model == SourceModel::irradiance_sampling) add_irradiance_below(load, half, p);
   if (p.light.model == SourceModel::boundary_flux) add_irradiance_on_surface(load, half, p);
   load.add_uniform(p.coefficients.source_per_E * p.medium.emission);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/convexity.h"
-#include "photon/first_light_tracer.h"
 #include "photon/photon_tracer.h"
 
 namespace knotlight {
@@ -30,10 +29,6 @@ std::size_t sample_count(const Scene& scene, std::uint32_t object, int channel, 
   return static_cast<std::size_t>(
       std::clamp((model == SourceModel::boundary_flux ? samples_on : samples_below) * squares,
                  fewest_samples, most_samples));
-}
-
-void append(std::vector<VolumePhoton>& to, const std::vector<VolumePhoton>& from) {
-  to.insert(to.end(), from.begin(), from.end());
 }
 
 // One trace as two halves, split by the photons emitted: a path may leave several, which must stay
@@ -116,10 +111,13 @@ std::vector<IncidentLight> trace_incident_light(const PreparedScene& prepared, i
       rays.rays = std::max<std::size_t>(1, scene.solver.photons / 2);
       rays.seed = seed;
       rays.replicate = half;
-      const FirstLight traced =
-          trace_first_light(scene, *prepared.caster, channel, rays, workers, stage);
-      for (std::size_t i = 0; i < result.size(); ++i)
-        append(result[i].halves[half].photons, traced.photons[prepared.translucent[i]]);
+      FirstLight traced = trace_first_light(scene, *prepared.caster, channel, rays, workers, stage);
+      for (std::size_t i = 0; i < result.size(); ++i) {
+        IncidentHalf& light = result[i].halves[half];
+        light.photons = std::move(traced.photons[prepared.translucent[i]]);
+        light.ends = std::move(traced.ends[prepared.translucent[i]]);
+        light.expected = light.photons.size();
+      }
     } else {
       for (std::size_t i = 0; i < result.size(); ++i) {
         const std::uint32_t object = prepared.translucent[i];

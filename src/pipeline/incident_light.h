@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "photon/first_light_tracer.h"
 #include "photon/irradiance.h"
 #include "photon/photon_map.h"
 #include "pipeline/run_options.h"
@@ -14,8 +15,12 @@
 namespace knotlight {
 
 struct IncidentHalf {
-  std::vector<VolumePhoton> photons;  // first interactions; with every model that part of the
-                                      // light that was scattered before it entered
+  // First interactions; with every model that part of the light that was scattered before it
+  // entered. The first `expected` of them come from trace_first_light, with the ends of their
+  // flights; the others from random walks.
+  std::vector<VolumePhoton> photons;
+  std::size_t expected = 0;
+  std::vector<FlightEnd> ends;
   std::vector<IrradianceSample> irradiance;  // of the models without volume photons
 };
 

@@ -73,16 +73,22 @@ std::vector<Vec3> read_points(const std::string& path) {
   return points;
 }
 
-// Photon maps that tell U_ri, [channel][translucent object], whatever the source model.
+// Photon maps that tell U_ri, [channel][translucent object]: from the light of the solution, or of
+// their own where that has no photons.
 std::vector<std::vector<VolumePhotonMap>> first_light_maps(const PreparedScene& prepared,
-                                                           RunContext& run) {
+                                                           SolvedScene& solved, RunContext& run) {
   const Scene& scene = prepared.scene;
-  std::vector<std::vector<VolumePhotonMap>> maps(static_cast<std::size_t>(scene.channels));
-  Stage stage(run.stages, "photon map",
-              incident_light_work(prepared, SourceModel::photon_map) * maps.size());
-  for (int c = 0; c < scene.channels; ++c) {
-    std::vector<IncidentLight> light = trace_incident_light(prepared, c, SourceModel::photon_map,
-                                                            run.options.seed, run.workers, stage);
+  const auto channels = static_cast<std::size_t>(scene.channels);
+  std::vector<std::vector<VolumePhotonMap>> maps(channels);
+  const bool traced = solved.plan.source == SourceModel::photon_map;
+  Stage stage(
+      run.stages, "photon map",
+      traced ? channels : incident_light_work(prepared, SourceModel::photon_map) * channels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    std::vector<IncidentLight> light =
+        traced ? std::move(solved.light[c])
+               : trace_incident_light(prepared, static_cast<int>(c), SourceModel::photon_map,
+                                      run.options.seed, run.workers, stage);
     for (std::size_t i = 0; i < light.size(); ++i) {
       // Both halves in one map: each is an estimate of all the light.
       std::vector<VolumePhoton> photons = std::move(light[i].halves[0].photons);
@@ -90,9 +96,9 @@ std::vector<std::vector<VolumePhotonMap>> first_light_maps(const PreparedScene& 
                      light[i].halves[1].photons.end());
       for (VolumePhoton& photon : photons) photon.power *= 0.5;
       const Object& object = scene.objects[prepared.translucent[i]];
-      maps[static_cast<std::size_t>(c)].emplace_back(std::move(photons),
-                                                     object.translucent()->medium(c));
+      maps[c].emplace_back(std::move(photons), object.translucent()->medium(static_cast<int>(c)));
     }
+    if (traced) stage.advance();
   }
   return maps;
 }
@@ -121,8 +127,8 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
                    const std::string& output_csv, RunContext& run, Scene& scene_out) {
   const std::vector<Vec3> points = read_points(points_csv);
   const PreparedScene prepared = prepare_scene(path, run);
-  const SolvedScene solved = solve_scene(prepared, run);
-  const auto maps = first_light_maps(prepared, run);
+  SolvedScene solved = solve_scene(prepared, run, true);
+  const auto maps = first_light_maps(prepared, solved, run);
 
   std::vector<std::string> rows(points.size());
   {

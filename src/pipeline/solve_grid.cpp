@@ -22,10 +22,15 @@ constexpr double lost_allowed = 1e-3;   // share of the sources that found no ce
 ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
                        const Workers& workers) {
   double sigma_tr = 0.0;
-  for (int c = 0; c < channels; ++c)
-    sigma_tr = std::max(sigma_tr, object.translucent()->medium(c).sigma_tr());
+  double sigma_t = 0.0;
+  for (int c = 0; c < channels; ++c) {
+    const Medium medium = object.translucent()->medium(c);
+    sigma_tr = std::max(sigma_tr, medium.sigma_tr());
+    sigma_t = std::max(sigma_t, medium.sigma_t());
+  }
   ObjectGrids grids;
-  grids.size = cell_size_for(object.shape, sigma_tr, settings.tolerance);
+  grids.size = cell_size_for(object.shape, sigma_tr, sigma_t, settings.tolerance,
+                             cell_budget(settings.tolerance));
   grids.fine = std::make_shared<GridGeometry>(object.shape, grids.size.h, workers);
   grids.coarse = std::make_shared<GridGeometry>(object.shape, 2.0 * grids.size.h, workers);
   return grids;

@@ -52,7 +52,7 @@ std::vector<std::string> lamps_inside(const PreparedScene& prepared) {
 
 }  // namespace
 
-SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
+SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool keep_light) {
   const Scene& scene = prepared.scene;
   const auto channels = static_cast<std::size_t>(scene.channels);
 
@@ -89,13 +89,14 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run) {
           solve_channel(scene, *prepared.caster, object, static_cast<int>(channel),
                         object_grids ? &*object_grids : nullptr, light[channel][system / channels],
                         run.options.seed, Workers(1));
-      light[channel][system / channels] = {};  // freed as we go
+      if (!keep_light) light[channel][system / channels] = {};  // freed as we go
       stage.advance();
     });
   }
 
   SolvedScene result;
   result.plan = plan;
+  if (keep_light) result.light = std::move(light);
   if (plan.source != SourceModel::photon_map)
     for (const std::string& lamp : lamps_inside(prepared))
       result.report.failures.push_back(

@@ -15,9 +15,11 @@ struct SolvedScene {
   // One entry per translucent object in scene order, in it one per channel.
   std::vector<std::vector<SolvedChannel>> objects;
   Plan plan;
+  // [channel][translucent object], if it was to be kept: what the solution was made from.
+  std::vector<std::vector<IncidentLight>> light;
   Report report;
 };
 
-SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run);
+SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool keep_light = false);
 
 }  // namespace knotlight

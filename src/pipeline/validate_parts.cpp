@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "grid/cell_size.h"
 
 namespace knotlight {
 
@@ -21,17 +24,20 @@ Scene scene_of(Shape shape, const Medium& medium, std::vector<Light> lights) {
   return scene;
 }
 
-// The cell size follows from the tolerance as h = sqrt(tolerance / 0.01) min(0.5 / sigma_tr, size /
-// 64) (grid/cell_size.h): the tolerance that gives the cells wanted.
+// The cell size goes with the square root of the tolerance (grid/cell_size.h): the tolerance that
+// gives the cells wanted.
 SolvedScene solve_case(Scene scene, const CaseSolver& solver, const CaseRun& run) {
   const Medium medium = scene.objects[0].translucent()->medium(0);
+  constexpr double usual_tolerance = 0.01;
   const double usual_cell =
-      std::min(0.5, bounds(scene.objects[0].shape).largest_extent() * medium.sigma_tr() / 64.0);
+      cell_size_for(scene.objects[0].shape, medium.sigma_tr(), medium.sigma_t(), usual_tolerance,
+                    std::numeric_limits<std::size_t>::max())
+          .h_sigma_tr;
   if (!scene.solver.source) scene.solver.source = SourceModel::photon_map;
   scene.solver.method = Method::grid;
   scene.solver.boundary = solver.boundary;
   scene.solver.photons = solver.photons;
-  scene.solver.tolerance = 0.01 * std::pow(solver.cell / usual_cell, 2);
+  scene.solver.tolerance = usual_tolerance * std::pow(solver.cell / usual_cell, 2);
   RunOptions options;
   options.seed = run.seed;
   options.threads = 1;
