@@ -9,18 +9,18 @@
 #include <filesystem>
 #include <string>
 
+#include "compare/compare.h"
 #include "core/errors.h"
 #include "core/file_io.h"
 #include "core/image_io.h"
-#include "pipeline/compare.h"
 #include "pipeline/info.h"
 #include "pipeline/probe_scene.h"
 #include "pipeline/render_scene.h"
 #include "pipeline/report_json.h"
 #include "pipeline/run_options.h"
-#include "pipeline/validate.h"
-#include "pipeline/validate_report.h"
 #include "scene/nearest_name.h"
+#include "validate/report.h"
+#include "validate/validate.h"
 
 namespace knotlight {
 namespace {

@@ -5,8 +5,8 @@
 #include <exception>
 #include <string>
 
-#include "pipeline/validate.h"
-#include "pipeline/validate_report.h"
+#include "validate/report.h"
+#include "validate/validate.h"
 
 int main(int argc, char** argv) {
   using namespace knotlight;
