@@ -15,7 +15,7 @@ constexpr double cells_per_size = 64.0;
 constexpr double box_share = 8.0;
 
 constexpr double usual_budget = 2e6;
-constexpr double largest_budget = 16e6;
+constexpr double largest_budget = 8e6;
 
 }  // namespace
 

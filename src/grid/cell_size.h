@@ -23,7 +23,7 @@ CellSize cell_size_for(const Shape& shape, double sigma_tr, double sigma_t, doub
                        std::size_t most_cells);
 
 // What a tolerance may cost: 2 million cells, about 0.6 GiB, at 0.01 and above, more in proportion
-// below, 16 million at most.
+// below, 8 million at most.
 std::size_t cell_budget(double tolerance);
 
 }  // namespace knotlight

@@ -7,21 +7,21 @@ namespace {
 
 TEST(CellSize, Rule) {
   const Shape ball = Sphere{};
-  EXPECT_DOUBLE_EQ(cell_size_for(ball, 5.0, 5.0, 0.01, 10'000'000).h,
+  EXPECT_DOUBLE_EQ(cell_size_for(ball, 5.0, 5.0, 0.01, 100'000'000).h,
                    2.0 / 64.0);  // the object decides
-  EXPECT_DOUBLE_EQ(cell_size_for(ball, 30.0, 30.0, 0.01, 10'000'000).h,
+  EXPECT_DOUBLE_EQ(cell_size_for(ball, 30.0, 30.0, 0.01, 100'000'000).h,
                    0.5 / 30.0);  // the medium decides
-  EXPECT_DOUBLE_EQ(cell_size_for(ball, 40.0, 40.0, 0.04, 10'000'000).h,
+  EXPECT_DOUBLE_EQ(cell_size_for(ball, 40.0, 40.0, 0.04, 100'000'000).h,
                    1.0 / 40.0);  // second order
-  EXPECT_DOUBLE_EQ(cell_size_for(ball, 30.0, 150.0, 0.01, 10'000'000).h, 0.75 / 150.0);  // g = 0.8
-  EXPECT_FALSE(cell_size_for(ball, 30.0, 30.0, 0.01, 10'000'000).limited);
+  EXPECT_DOUBLE_EQ(cell_size_for(ball, 30.0, 150.0, 0.01, 100'000'000).h, 0.75 / 150.0);  // g = 0.8
+  EXPECT_FALSE(cell_size_for(ball, 30.0, 30.0, 0.01, 100'000'000).limited);
 }
 
 TEST(CellSize, FinerTolerancesMayCostMore) {
   EXPECT_EQ(cell_budget(0.05), 2'000'000u);
   EXPECT_EQ(cell_budget(0.01), 2'000'000u);
-  EXPECT_EQ(cell_budget(0.0025), 8'000'000u);
-  EXPECT_EQ(cell_budget(1e-5), 16'000'000u);
+  EXPECT_EQ(cell_budget(0.004), 5'000'000u);
+  EXPECT_EQ(cell_budget(1e-5), 8'000'000u);
 }
 
 TEST(CellSize, Budget) {

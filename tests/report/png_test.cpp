@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string>
+
+#include "support/scene_files.h"
 
 namespace knotlight {
 namespace {
@@ -15,13 +15,8 @@ namespace {
 Image decoded(const std::vector<unsigned char>& png) {
   // A new name each time: OpenImageIO remembers files by their names.
   static int files = 0;
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("knotlight_png_test_" + std::to_string(++files) + ".png");
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-  Image image = read_image(path.string());
-  std::filesystem::remove(path);
-  return image;
+  const test::ScratchFolder folder;
+  return read_image(folder.write(std::to_string(++files) + ".png", {png.begin(), png.end()}));
 }
 
 double srgb_decode(double x) {  // IEC 61966-2-1
