@@ -12,7 +12,7 @@ using std::numbers::pi;
 // flying along w gives
 //   3 sigma_s sigma_tr / (4 pi sigma_t) dPhi v  +  (3/4pi) g (sigma_s / sigma_t) dPhi w . grad v.
 // The boundary term with Q_ri . n cancels against the one from div Q_ri: no density has to be
-// estimated, anywhere. Where the ends of flights are known, the derivative goes too (14): it is
+// estimated, anywhere. Where the ends of flights are known, the derivative goes too (13b): it is
 // integrated along each flight, which leaves far less noise near the surface than dipoles.
 void add_photons(GridLoad& load, const IncidentHalf& half, const Medium& m) {
   const double strength = 3.0 * m.sigma_s * m.sigma_tr() / (4.0 * pi * m.sigma_t());

@@ -12,8 +12,10 @@
 namespace knotlight {
 namespace {
 
-constexpr int tile_size = 16;          // pixels; small enough to balance two cores at the end
-constexpr double invisible = 1e-5;     // of the light behind an object
+constexpr int tile_size = 16;       // pixels; small enough to balance two cores at the end
+constexpr double invisible = 1e-5;  // of the light behind an object
+// Rays to the lights per camera ray where the light that enters has to come off U (boundary_flux).
+constexpr int entering_samples = 16;
 constexpr int mirror_bounces = 4;      // R^4 < 1e-5 away from grazing angles
 constexpr double crease_cosine = 0.7;  // facets within 45 degrees are shaded as one smooth surface
 // Smoothed normals can face away from the eye at silhouettes; leaving light then takes this cosine.
@@ -73,10 +75,9 @@ class Picture {
     const Vec3 n = shading_normal(hit);
     const double cosine = std::clamp(-n.dot(ray.direction), least_cosine, 1.0);
     const GlowingSurface& surface = *surfaces_[hit.object];
-    const Spectrum entered =
-        surface.counts_entering_light
-            ? sample_irradiance(scene_, caster_, hit.position, n, rng, material.ior)
-            : Spectrum(Spectrum::Zero());
+    const Spectrum entered = surface.counts_entering_light
+                                 ? entering_light(hit.position, n, material.ior, rng)
+                                 : Spectrum(Spectrum::Zero());
     Spectrum light;
     for (int c = 0; c < 3; ++c) {
       const auto channel = static_cast<std::size_t>(std::min(c, scene_.channels - 1));
@@ -90,6 +91,14 @@ class Picture {
     const Vec3 mirrored = reflect(ray.direction, n);
     if (mirrored.dot(hit.normal) <= 0.0) return light;  // into the facet: smoothing's artefact
     return light + reflectance * radiance({hit.position, mirrored}, bounces - 1, rng);
+  }
+
+  Spectrum entering_light(const Vec3& position, const Vec3& n, double ior, Rng& rng) const {
+    const int samples = irradiance_is_exact(scene_) ? 1 : entering_samples;
+    Spectrum sum = Spectrum::Zero();
+    for (int i = 0; i < samples; ++i)
+      sum += sample_irradiance(scene_, caster_, position, n, rng, ior);
+    return sum / samples;
   }
 
   // What lies behind an index-matched object, weakened by exp(-sigma_t length). (A refracting one
