@@ -42,7 +42,8 @@ struct DiffusionCoefficients {
   // Flux leaving through the surface, W/length^2, from U_d there: F_n = 2 pi U_d / A.
   double leaving_flux(double U_d) const;
   // The model that takes light as diffuse from the moment it enters (entered = (1 - R_F) E,
-  // W/length^2): right-hand side of the Robin condition for U = U_ri + U_d, and U_ri on the surface.
+  // W/length^2): right-hand side of the Robin condition for U = U_ri + U_d, and U_ri on the
+  // surface.
   double boundary_flux_data(double entered) const;
   static double boundary_flux_U_ri(double entered);
 };

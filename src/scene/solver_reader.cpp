@@ -51,10 +51,10 @@ constexpr Range between_0_and_1{0.0, 1.0, true, true};
 constexpr Range knot_spacings{1e-6, 1e6};
 // A ball of a thousand mean free paths averages over any object.
 constexpr Range estimate_radii{1e-6, 1e3};
-constexpr std::size_t max_photons = 500'000'000;  // 32 GB of them
+constexpr std::size_t max_photons = 500'000'000;            // 32 GB of them
 constexpr std::size_t max_irradiance_samples = 10'000'000;  // 0.6 GB of them
-constexpr std::size_t max_knots = 5'000;          // matrices of 15 000 rows, 7 GB
-constexpr std::size_t min_knots = 4;              // four points span a volume
+constexpr std::size_t max_knots = 5'000;                    // matrices of 15 000 rows, 7 GB
+constexpr std::size_t min_knots = 4;                        // four points span a volume
 constexpr std::size_t max_estimate_photons = 1'000'000;
 
 // Noise falls about as 1/n; on the shipped scenes this many leave half the tolerance of noise
@@ -69,9 +69,10 @@ std::size_t default_photons(double tolerance) {
 }  // namespace
 
 SolverSettings read_solver(const YamlNode& node) {
-  check_keys(node, {"tolerance", "source", "method", "boundary", "exitance", "photons", "knots",
-                    "jitter", "shape_parameter", "svd_cut", "estimate_photons", "divergence",
-                    "deposits", "similarity", "estimator", "estimate_radius", "irradiance_samples"});
+  check_keys(node,
+             {"tolerance", "source", "method", "boundary", "exitance", "photons", "knots", "jitter",
+              "shape_parameter", "svd_cut", "estimate_photons", "divergence", "deposits",
+              "similarity", "estimator", "estimate_radius", "irradiance_samples"});
   SolverSettings solver;
   if (const auto* key = node.find("tolerance")) {
     solver.tolerance = read_number(*key, between_0_and_1);
