@@ -26,6 +26,7 @@ constexpr std::size_t many_lines = 384;
 constexpr double agreement = 0.005;
 // Of the ray caster's skip distance: well above rounding, 2e-6 of the scene.
 constexpr double inset_in_skips = 20.0;
+constexpr int most_faces_left = 3;  // those of a corner of a box
 // Radians over the radius of the ball: rays that close in faster meet within it, and there is no
 // bundle to follow.
 constexpr double largest_spread = 0.5;
@@ -176,8 +177,14 @@ double beam_mass(const Vec3& x, const Beam& beam, double r, RadialKernel kernel,
   sum.beam.spread = std::clamp(beam.spread * r, -largest_spread, largest_spread) / r;
   std::vector<Segment> segments;
   // A ray from the surface itself would be in or out by rounding where light glides along a face.
-  const SurfacePoint surface = caster.nearest_surface_point(x, object);
-  const Vec3 inner = x - inset_in_skips * caster.skip_distance() * surface.normal;
+  // At an edge or a corner it has to leave each face that meets there.
+  const double inset = inset_in_skips * caster.skip_distance();
+  Vec3 inner = x;
+  for (int face = 0; face < most_faces_left; ++face) {
+    const SurfacePoint surface = caster.nearest_surface_point(inner, object);
+    if (face > 0 && (surface.position - inner).norm() > 0.5 * inset) break;
+    inner -= inset * surface.normal;
+  }
   find_segments(inner, -beam.direction, caster, object, segments);
   if (!segments.empty() && segments.front().begin == 0.0)
     sum.way_to_x = segments.front().end + way_before(segments, 0, straight);

@@ -27,6 +27,9 @@ constexpr std::size_t leaf_size = 16;
 constexpr double photons_per_root = 2.0;
 constexpr std::size_t fewest_nearest = 50;
 constexpr double largest_radius = 1.0;
+// Refraction at a curved surface changes a beam's irradiance across the ball in ways that the
+// estimate does not know: smaller balls, docs/results/estimators.md.
+constexpr double largest_radius_refracting = 0.25;
 
 // nanoflann's view of the photons.
 struct PhotonCloud {
@@ -129,11 +132,11 @@ Ball photons_around(const Vec3& x, double max_radius, const EstimateOptions& opt
 
 }  // namespace
 
-EstimateOptions default_estimate(std::size_t photons) {
+EstimateOptions default_estimate(std::size_t photons, double ior) {
   EstimateOptions options;
   const double wanted = photons_per_root * std::sqrt(static_cast<double>(photons));
   options.nearest = std::max(fewest_nearest, static_cast<std::size_t>(std::lround(wanted)));
-  options.max_radius = largest_radius;
+  options.max_radius = ior == 1.0 ? largest_radius : largest_radius_refracting;
   return options;
 }
 

@@ -125,6 +125,7 @@ int info(const CommandLine& line, RunContext& run) {
 }
 
 int validate_program(const CommandLine& line, RunContext& run) {
+  if (!line.output.empty()) make_output_folder(line.output);
   const Validation validation = validate(line.validate, run);
   if (!line.options.quiet) fmt::print("{}", validation_text(validation));
   if (!line.options.json.empty()) write_text_file(line.options.json, validation_json(validation));
@@ -169,7 +170,7 @@ int run_program(int argc, char** argv) {
       .add_option("--photons", line.compare.photons,
                   "rays of the photon map per channel, in place of solver.photons; left out: as "
                   "many as bring the noise near the tolerance")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1.0, 5e8));
   CLI::App& validate_command = *app.add_subcommand(
       "validate", "the whole program on cases whose answer is known; exit code 1 if any fails");
   add_run_options(validate_command, line);

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "core/errors.h"
+
 namespace knotlight {
 
 namespace {
@@ -65,6 +67,13 @@ void write_text_file(const std::string& path, const std::string& text) {
     out.close();
     if (!out) throw std::runtime_error(path + ": cannot write");
   });
+}
+
+void make_output_folder(const std::string& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(folder + ": cannot make this folder, expected a place to write to");
 }
 
 }  // namespace knotlight

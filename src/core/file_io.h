@@ -19,4 +19,7 @@ void remove_pending_file() noexcept;
 // The same as write_atomically for text.
 void write_text_file(const std::string& path, const std::string& text);
 
+// Makes the folder, and those above it, if they are not there; InputError if that is not possible.
+void make_output_folder(const std::string& folder);
+
 }  // namespace knotlight

@@ -31,8 +31,8 @@ std::size_t sample_count(const Scene& scene, std::uint32_t object, int channel, 
                  fewest_samples, most_samples));
 }
 
-// One trace as two halves, split by the photons emitted: a path may leave several, which must stay
-// together. Each half is an estimate of all the light, so its photons carry twice their power.
+// One trace as two halves, the photons stored first and those stored last. Each half is an estimate
+// of all the light, so its photons carry twice their power.
 void append_split(std::array<IncidentHalf, 2>& halves, std::vector<VolumePhoton> photons) {
   for (VolumePhoton& photon : photons) photon.power *= 2.0;
   const auto middle = photons.begin() + static_cast<std::ptrdiff_t>(photons.size() / 2);
@@ -59,6 +59,13 @@ double IncidentLight::photon_power() const {
   return sum;
 }
 
+std::size_t IncidentLight::lit_samples() const {
+  std::size_t lit = 0;
+  for (const IncidentHalf& half : halves)
+    for (const IrradianceSample& sample : half.irradiance) lit += sample.entered > 0.0;
+  return lit;
+}
+
 double IncidentLight::entered_power() const {
   double sum = 0.0;
   for (const IncidentHalf& half : halves)
@@ -67,8 +74,9 @@ double IncidentLight::entered_power() const {
   return sum;
 }
 
-EstimateOptions estimate_options(const SolverSettings& settings, std::size_t photons) {
-  EstimateOptions options = default_estimate(photons);
+EstimateOptions estimate_options(const SolverSettings& settings, std::size_t photons,
+                                 const Medium& medium) {
+  EstimateOptions options = default_estimate(photons, medium.ior);
   options.estimator = settings.estimator;
   if (settings.estimate_photons) options.nearest = *settings.estimate_photons;
   if (settings.estimate_radius) options.max_radius = *settings.estimate_radius;
@@ -92,7 +100,10 @@ std::vector<IncidentLight> trace_incident_light(const PreparedScene& prepared, i
                                                 const Workers& workers, Stage& stage) {
   const Scene& scene = prepared.scene;
   std::vector<IncidentLight> result(prepared.translucent.size());
-  for (IncidentLight& light : result) light.model = model;
+  for (IncidentLight& light : result) {
+    light.model = model;
+    light.has_walks = light_can_come_back(prepared);
+  }
   TracerOptions walk;
   walk.seed = seed;
 

@@ -26,15 +26,18 @@ struct IncidentHalf {
 
 struct IncidentLight {
   SourceModel model = SourceModel::photon_map;
+  bool has_walks = false;              // some of the photons are random walks, or all
   std::array<IncidentHalf, 2> halves;  // each an estimate of all the light
 
   std::size_t photons() const { return halves[0].photons.size() + halves[1].photons.size(); }
-  double photon_power() const;   // W, interacting for the first time
-  double entered_power() const;  // W, by the irradiance samples
+  double photon_power() const;      // W, interacting for the first time
+  std::size_t lit_samples() const;  // irradiance samples that any light reaches
+  double entered_power() const;     // W, by the irradiance samples
 };
 
-// How the scene wants densities estimated in a map of so many photons.
-EstimateOptions estimate_options(const SolverSettings& settings, std::size_t photons);
+// How the scene wants densities estimated in a map of so many photons of a medium.
+EstimateOptions estimate_options(const SolverSettings& settings, std::size_t photons,
+                                 const Medium& medium);
 
 // One entry per translucent object (PreparedScene::translucent). Advances the stage by
 // incident_light_work.

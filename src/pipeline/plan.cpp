@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "pipeline/incident_light.h"
+#include "pipeline/validity.h"
 
 namespace knotlight {
 namespace {
@@ -18,6 +19,22 @@ bool sky_alone(const Scene& scene) {
          });
 }
 
+// Where boundary_flux was found as good as the photon map (docs/results/source-models.md).
+constexpr double least_albedo = 0.99;     // reduced
+constexpr double least_thickness = 10.0;  // 4V/S in transport mean free paths
+
+bool diffuse_enough(const PreparedScene& prepared) {
+  const Object& object = prepared.scene.objects[prepared.translucent[0]];
+  for (int c = 0; c < prepared.scene.channels; ++c) {
+    const Medium medium = object.translucent()->medium(c);
+    const Validity validity = diffusion_validity(object.shape, medium);
+    if (medium.ior != 1.0 || validity.reduced_albedo < least_albedo ||
+        validity.thickness < least_thickness)
+      return false;
+  }
+  return true;
+}
+
 void choose_source(const PreparedScene& prepared, Plan& plan) {
   const Scene& scene = prepared.scene;
   if (scene.solver.source) {
@@ -25,11 +42,13 @@ void choose_source(const PreparedScene& prepared, Plan& plan) {
     plan.source_reason = fmt::format("{}, as the scene asks", name_of(plan.source));
     return;
   }
-  if (sky_alone(scene) && !light_can_come_back(prepared)) {
+  if (sky_alone(scene) && scene.objects.size() == 1 && !light_can_come_back(prepared) &&
+      diffuse_enough(prepared)) {
     plan.source = SourceModel::boundary_flux;
     plan.source_reason =
-        "boundary_flux: all light comes evenly from the sky on one convex object; taken as diffuse "
-        "at once it is nearer to transport than with photons, and cheaper";
+        "boundary_flux: all light comes evenly from the sky on one convex, index-matched, thick "
+        "object that absorbs little; taken as diffuse at once it is as near to transport as with "
+        "photons";
     return;
   }
   plan.source = SourceModel::photon_map;

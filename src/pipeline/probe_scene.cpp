@@ -129,6 +129,8 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
   const PreparedScene prepared = prepare_scene(path, run);
   SolvedScene solved = solve_scene(prepared, run, true);
   const auto maps = first_light_maps(prepared, solved, run);
+  if (solved.plan.source != SourceModel::photon_map && !enough_photons(prepared.scene))
+    solved.report.failures.push_back(too_few_photons(prepared.scene));
 
   std::vector<std::string> rows(points.size());
   {
@@ -148,7 +150,12 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
                   solved.objects[place->object][static_cast<std::size_t>(c)];
               const VolumePhotonMap& map = maps[static_cast<std::size_t>(c)][place->object];
               const double U_ri =
-                  map.estimate(place->point, estimate_options(prepared.scene.solver, map.size()),
+                  map.estimate(place->point,
+                               estimate_options(
+                                   prepared.scene.solver, map.size(),
+                                   prepared.scene.objects[prepared.translucent[place->object]]
+                                       .translucent()
+                                       ->medium(c)),
                                *prepared.caster, prepared.translucent[place->object])
                       .U_ri;
               // This model solves for both together.

@@ -73,7 +73,7 @@ RightHandSides right_hand_sides(const Places& places, const VolumePhotonMap (&ma
   RightHandSides result;
   for (std::size_t half = 0; half < 2; ++half) {
     SourceTerms& terms = result.halves[half];
-    options.estimate = estimate_options(p.settings, maps[half].size());
+    options.estimate = estimate_options(p.settings, maps[half].size(), p.medium);
     terms = source_terms(places.surface.positions, places.surface.normals, places.interior,
                          maps[half], p.medium, options, p.caster, p.object, p.workers);
     if (p.light.model == SourceModel::photon_map) continue;

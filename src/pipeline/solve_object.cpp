@@ -70,6 +70,10 @@ constexpr double largest_blind_zone = 0.01;  // mean free paths: 1 % of the ligh
 // the 95 % bound on a share of the light of which none was seen.
 constexpr std::size_t least_photons = 10'000;
 
+// Irradiance samples that see light: a patch lit by fewer is known to 10 % or worse, and none may
+// be bad luck too.
+constexpr std::size_t least_lit_samples = 100;
+
 // Comparisons are written so that not-a-number fails.
 void judge(const ChannelReport& r, double tolerance, std::vector<std::string>& failures) {
   const double allowed = tolerances_allowed * tolerance;
@@ -85,6 +89,15 @@ void judge(const ChannelReport& r, double tolerance, std::vector<std::string>& f
 }
 
 }  // namespace
+
+bool enough_photons(const Scene& scene) {
+  return scene.lights.empty() || scene.solver.photons >= least_photons;
+}
+
+std::string too_few_photons(const Scene& scene) {
+  return fmt::format("{} photons are too few to judge anything by, expected {}",
+                     scene.solver.photons, least_photons);
+}
 
 Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
                             const RayCaster& caster, std::uint32_t object, int channel_index,
@@ -131,11 +144,15 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
   report.error_estimate = report.numerical_error + report.noise;
   balance_energy(problem, result, report);
   result.failures = std::move(solution.failures);
-  if (!scene.lights.empty() && light.model == SourceModel::photon_map &&
-      scene.solver.photons < least_photons)
+  if ((light.model == SourceModel::photon_map || light.has_walks) && !enough_photons(scene))
+    result.failures.push_back(too_few_photons(scene));
+  const bool samples_irradiance =
+      light.model == SourceModel::irradiance_sampling || light.model == SourceModel::boundary_flux;
+  if (samples_irradiance && !scene.lights.empty() && light.lit_samples() < least_lit_samples)
     result.failures.push_back(
-        fmt::format("{} photons are too few to judge anything by, expected {}",
-                    scene.solver.photons, least_photons));
+        fmt::format("light reaches {} of the irradiance samples, too few to judge anything by, "
+                    "expected {}",
+                    light.lit_samples(), least_lit_samples));
   const double blind = caster.touching_distance() * medium.sigma_t();
   if (!(blind <= largest_blind_zone))
     result.failures.push_back(fmt::format(

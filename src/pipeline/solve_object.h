@@ -22,6 +22,10 @@ struct SolvedChannel {
   double U_d_at(const Vec3& x) const { return U_d(x)[0]; }
 };
 
+// Whether the photons are enough to tell darkness from bad luck, and what to say if not.
+bool enough_photons(const Scene& scene);
+std::string too_few_photons(const Scene& scene);
+
 // U_d on the surface (positions and outward normals: 3 x N): what leaving_flux and the exitance
 // take. The model boundary_flux solves for U_ri + U_d; its U_ri on the surface, entered / (2 pi),
 // is taken off here.

@@ -102,6 +102,15 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool kee
       result.report.failures.push_back(
           fmt::format("{} lies inside a translucent object: {} counts light from outside alone",
                       lamp, name_of(plan.source)));
+  const bool refracts = std::any_of(
+      prepared.translucent.begin(), prepared.translucent.end(),
+      [&](std::uint32_t object) { return scene.objects[object].translucent()->ior != 1.0; });
+  if (plan.source != SourceModel::photon_map &&
+      (prepared.translucent.size() > 1 || (refracts && light_can_come_back(prepared))))
+    result.report.failures.push_back(
+        fmt::format("{} does not follow unscattered light that one surface throws on another or "
+                    "one object lets through to another",
+                    name_of(plan.source)));
   for (const std::string& inclusion : opaque_inclusions(scene, *prepared.caster))
     result.report.failures.push_back(inclusion + ": the diffusion equation does not know it");
   for (std::size_t i = 0; i < prepared.translucent.size(); ++i) {

@@ -179,7 +179,7 @@ std::string validation_json(const Validation& validation) {
 }
 
 void write_validation(const Validation& validation, const std::string& folder) {
-  std::filesystem::create_directories(folder);
+  make_output_folder(folder);
   const auto write = [&](const std::string& name, const std::string& text) {
     write_text_file((std::filesystem::path(folder) / name).string(), text);
   };
