@@ -14,7 +14,7 @@ namespace knotlight {
 struct CompareOptions {
   // Rays of photon_map per channel, in place of solver.photons. Left out: as many as bring the
   // noise near the tolerance, at most the scene's, since a comparison solves the scene some twenty
-  // times. The converged solution takes three times as many.
+  // times. The converged solution takes four times as many.
   std::optional<std::size_t> photons;
   // Of the photons of all orders that tell the truth: 1 % of standard error in the bright cells of
   // scenes/knot.yaml in some ten seconds on two cores.

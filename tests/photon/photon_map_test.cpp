@@ -307,6 +307,23 @@ TEST(PhotonMap, LightAlongAFace) {
   }
 }
 
+// The same on edges that the light runs along, where two faces meet, and at a corner: U_ri was up
+// to 60 times too high there while the ray from x started on the second face.
+TEST(PhotonMap, LightAlongAnEdge) {
+  constexpr double bias = 0.02;
+  const Medium m{0.2, 1.8, 0.7, 1.0, 0.0};
+  const Scene scene = scene_of({parallel_light(-Vec3::UnitZ(), 1.0)},
+                               {translucent(box_mesh(Vec3(-1, -1, -1), Vec3(1, 1, 0)), m)});
+  const auto caster = caster_of(scene);
+  const VolumePhotonMap map(trace(scene, Orders::first, 500'000, true).photons[0], m);
+  for (const Vec3& x :
+       {Vec3(1, 1, -0.2), Vec3(-1, 1, -0.5), Vec3(1, -1, -0.8), Vec3(1, 1, -1), Vec3(-1, -1, 0)}) {
+    const double exact = std::exp(2.0 * x.z()) / (4.0 * pi);
+    const ReducedIncident r = map.estimate(x, {1'000'000, 0.4}, *caster, 0);
+    EXPECT_NEAR(r.U_ri, exact, sigmas * r.relative_standard_error * exact + bias * exact);
+  }
+}
+
 // Light from everywhere has no beams: what is left is the fitted slope. Under a sky of radiance L
 // a wide slab has, with tau = sigma_t z, U_ri = (L/2) E_2(tau), E_2 = int_1^inf exp(-tau t)/t^2 dt:
 // half of L on its surface. Mean of 100 points; allowed bias 2 %, of second differences.

@@ -109,9 +109,18 @@ TEST(SourceModels, ThesisIrradianceIsNeverTrusted) {
   EXPECT_GT(std::abs(ratio - 1.0), 0.02);
 }
 
+// An even sky on one convex, thick, index-matched body that absorbs little; the ball of the other
+// tests absorbs 1 % per transport mean free path and is 13 of them thick.
 TEST(SourceModels, PlanChoosesTheCheapestThatHolds) {
   PreparedScene prepared = ball_under_a_sky(std::nullopt, Method::automatic);
   EXPECT_EQ(make_plan(prepared).source, SourceModel::boundary_flux);
+  auto& material = std::get<TranslucentMaterial>(prepared.scene.objects[0].material);
+  material.ior = 1.4;
+  EXPECT_EQ(make_plan(prepared).source, SourceModel::photon_map);
+  material.ior = 1.0;
+  material.sigma_a *= 5.0;
+  EXPECT_EQ(make_plan(prepared).source, SourceModel::photon_map);
+  material.sigma_a /= 5.0;
   prepared.scene.lights.push_back(DirectionalLight{-Vec3::UnitZ(), Spectrum::Ones()});
   EXPECT_EQ(make_plan(prepared).source, SourceModel::photon_map);
   prepared.scene.lights.pop_back();
@@ -140,6 +149,46 @@ TEST(SourceModels, LampInsideNeedsPhotons) {
       EXPECT_NEAR(solved.objects[0][0].report.photon_power, 4.0 * pi, 1e-3);
     }
   }
+}
+
+// Too few samples, or walks, to tell darkness from bad luck.
+TEST(SourceModels, TooLittleToGoByIsNotTrusted) {
+  PreparedScene prepared = ball_under_a_sky(SourceModel::irradiance_sampling, Method::grid);
+  prepared.scene.solver.irradiance_samples = 50;
+  EXPECT_FALSE(solve(prepared).report.failures.empty());
+  prepared.scene.solver.irradiance_samples.reset();
+  prepared.scene.lights = {PointLight{Vec3(0, 0, 3), Spectrum::Zero()}};
+  EXPECT_FALSE(solve(prepared).report.failures.empty());
+
+  PreparedScene torus = ball_under_a_sky(SourceModel::boundary_flux, Method::grid);
+  torus.scene.objects[0].shape = test::torus_mesh(1.0, 0.45, 32, 16);
+  torus = prepare_scene(std::move(torus.scene));
+  torus.scene.solver.photons = 100;
+  EXPECT_FALSE(solve(torus).report.failures.empty());
+}
+
+// Two objects: what the first lets through unscattered would count twice, or not at all.
+TEST(SourceModels, IrradianceOnSeveralObjectsIsNotTrusted) {
+  PreparedScene prepared = ball_under_a_sky(SourceModel::irradiance_sampling, Method::grid);
+  Object other = prepared.scene.objects[0];
+  other.name = "other";
+  other.shape = Sphere{Vec3(0, 0, 4), 1.0};
+  prepared.scene.objects.push_back(other);
+  EXPECT_FALSE(solve(prepare_scene(std::move(prepared.scene))).report.failures.empty());
+}
+
+// Similarity: (sigma_s, g) = (20, 0.505) becomes (9.9, 0), and the photon map of that scene and the
+// one written out by hand are the same.
+TEST(SourceModels, SimilarityIsTheReducedMedium) {
+  Scene scene = ball_under_a_sky(SourceModel::photon_map, Method::grid).scene;
+  Scene by_hand = scene;
+  scene.solver.similarity = true;
+  auto& material = std::get<TranslucentMaterial>(by_hand.objects[0].material);
+  material.sigma_s = Spectrum::Constant(0.495 * 20.0);
+  material.g = Spectrum::Zero();
+  const Vec3 x(0.3, 0.2, -0.5);
+  EXPECT_DOUBLE_EQ(solve(prepare_scene(std::move(scene))).objects[0][0].U_d_at(x),
+                   solve(prepare_scene(std::move(by_hand))).objects[0][0].U_d_at(x));
 }
 
 // Expected values and random collisions stand for the same light; half of it in each half.
