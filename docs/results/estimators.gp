@@ -1,10 +1,10 @@
 # Charts of estimators.md from its CSV:  gnuplot docs/results/estimators.gp  (from the repository root)
-set terminal svg size 720,480 font "sans,13" background "white"
+set terminal svg size 900,520 font "sans,13" background "white"
 set datafile separator ","
 data = "docs/results/estimators/"
 pictures = "docs/pictures/estimators-"
 set grid lc rgb "#dddddd"
-set key left bottom
+set key outside right top
 
 set output pictures."n.svg"
 set title "U_{ri} in the layer of 0.1 mean free path under the surface"
@@ -23,7 +23,7 @@ setting(c, s, e) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\" && $3==\"%s\"' %
 set output pictures."settings.svg"
 set title "sphere, 1 M photons, same layer: bias (lines) and noise (dashed) over the count"
 set xlabel "photons in the ball"; set yrange [0.001:1]
-set key right top
+set key outside right top
 plot for [e in "carried slope nearest kernel"] setting("sphere", "low_discrepancy", e) \
        using 4:6 with linespoints lw 2 title e.", bias", \
      for [e in "carried slope nearest kernel"] setting("sphere", "low_discrepancy", e) \
