@@ -88,8 +88,7 @@ double quantile_of_size(const ValueMap& map, double quantile) {
   for (const double value : map.values)
     if (std::isfinite(value)) sizes.push_back(std::abs(value));
   if (sizes.empty()) return 0.0;
-  const auto rank =
-      static_cast<std::ptrdiff_t>(quantile * static_cast<double>(sizes.size() - 1) + 0.5);
+  const auto rank = std::lround(quantile * static_cast<double>(sizes.size() - 1));
   std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
   return sizes[static_cast<std::size_t>(rank)];
 }
