@@ -53,9 +53,8 @@ void choose_source(const PreparedScene& prepared, Plan& plan) {
   }
   plan.source = SourceModel::photon_map;
   plan.source_reason =
-      "photon_map: beams, lights of some extent and light that comes back need it; the other "
-      "models "
-      "are 4 to 12 % off and no cheaper";
+      "photon_map: models without volume photons are off by 4 % and more where light is not an "
+      "even sky, and save little";
 }
 
 }  // namespace
