@@ -29,7 +29,7 @@ constexpr std::size_t fewest_nearest = 50;
 constexpr double largest_radius = 1.0;
 // Refraction at a curved surface changes a beam's irradiance across the ball in ways that the
 // estimate does not know: smaller balls, docs/results/estimators.md.
-constexpr double largest_radius_refracting = 0.25;
+constexpr double largest_radius_refracting = 0.5;
 
 // nanoflann's view of the photons.
 struct PhotonCloud {

@@ -45,7 +45,7 @@ struct EstimateOptions {
 };
 
 // What docs/results/estimators.md found best for a map of this many photons: 2 sqrt(photons) of
-// them in a ball of at most one mean free path, a quarter of one in a refracting object (ior).
+// them in a ball of at most one mean free path, half of one in a refracting object (ior).
 EstimateOptions default_estimate(std::size_t photons, double ior = 1.0);
 
 class VolumePhotonMap {
