@@ -46,15 +46,7 @@ class RayFollower {
   void follow(const EmittedPhoton& start, double offset, Rng& rng, Deposit& deposit) {
     least_power_ = least_share * start.power;
     offset_ = offset;
-    Branch first;
-    first.position = start.origin;
-    first.direction = start.direction;
-    first.power = start.power;
-    if (const auto around = passage_.object_around(start.origin)) {
-      first.inside = true;
-      first.object = *around;
-    }
-    branches_.assign(1, first);
+    branches_.assign(1, {passage_.start(start.origin, start.direction), start.power});
     for (int events = 0; !branches_.empty() && events < most_events; ++events) {
       Branch branch = branches_.back();
       branches_.pop_back();

@@ -12,11 +12,7 @@ constexpr std::size_t points_per_chunk = 256;  // about a millisecond of rays
 double entering_irradiance(const Scene& scene, const RayCaster& caster, int channel,
                            std::uint32_t object, const SurfacePoint& at, int rays, Rng& rng) {
   const double ior = scene.objects[object].translucent()->ior;
-  const int needed = irradiance_is_exact(scene) ? 1 : rays;
-  double sum = 0.0;
-  for (int i = 0; i < needed; ++i)
-    sum += sample_irradiance(scene, caster, at.position, at.normal, rng, ior)[channel];
-  return sum / needed;
+  return mean_irradiance(scene, caster, at.position, at.normal, rays, rng, ior)[channel];
 }
 
 std::vector<IrradianceSample> sample_irradiances(const Scene& scene, const RayCaster& caster,

@@ -42,6 +42,16 @@ Passage::Passage(const Scene& scene, const RayCaster& caster, int channel)
   }
 }
 
+LightRay Passage::start(const Vec3& position, const Vec3& direction) const {
+  LightRay light{position, direction};
+  if (const auto around = object_around(position)) {
+    light.inside = true;
+    light.object = *around;
+  }
+  return light;
+}
+
+// The translucent object that p lies in.
 std::optional<std::uint32_t> Passage::object_around(const Vec3& p) const {
   for (std::uint32_t i = 0; i < items_.size(); ++i)
     if (items_[i].translucent && contains(items_[i].bounds, p, 0.0) && caster_.inside(p, i))

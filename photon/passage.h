@@ -45,8 +45,8 @@ class Passage {
   const std::optional<Sphere>& target() const { return target_; }
   const Bounds& scene_bounds() const { return scene_bounds_; }
 
-  // The translucent object that p, where a light starts, lies in.
-  std::optional<std::uint32_t> object_around(const Vec3& p) const;
+  // Light as it leaves its source: inside the translucent object that the source lies in, if any.
+  LightRay start(const Vec3& position, const Vec3& direction) const;
   // The next surface in free space; nothing if the light leaves the scene.
   std::optional<Hit> next_outside(const LightRay& light) const;
   // What ends a flight of at most `distance` inside light.object: its own surface or, before that,
@@ -56,6 +56,7 @@ class Passage {
   bool within_bounds(const Vec3& p, std::uint32_t object) const;
 
  private:
+  std::optional<std::uint32_t> object_around(const Vec3& p) const;
   std::optional<Hit> contact(const Vec3& p, const Vec3& d, std::uint32_t object) const;
 
   const RayCaster& caster_;

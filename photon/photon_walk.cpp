@@ -30,15 +30,10 @@ PhotonWalk::PhotonWalk(const Scene& scene, const RayCaster& caster, int channel,
     : passage_(scene, caster, channel), options_(options) {}
 
 void PhotonWalk::run(const EmittedPhoton& start, Rng& rng, WalkRecord& record) const {
-  Flight flight;
-  flight.position = start.origin;
-  flight.direction = start.direction;
-  flight.power = start.power;
-  if (const auto around = passage_.object_around(start.origin)) {
-    flight.inside = true;
-    flight.object = *around;
-    record.tally[*around].incident += flight.power;
-    record.tally[*around].photons += 1;
+  Flight flight{passage_.start(start.origin, start.direction), start.power};
+  if (flight.inside) {
+    record.tally[flight.object].incident += flight.power;
+    record.tally[flight.object].photons += 1;
   }
   while (flight.alive) {
     if (flight.inside)

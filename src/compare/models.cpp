@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <fstream>
+#include <functional>
 #include <limits>
 
 #include "core/errors.h"
@@ -44,14 +45,16 @@ double seconds_of(const Stages& stages, const std::string& name) {
   return sum;
 }
 
-Eigen::VectorXd in_chunks(const FieldValues& field, const Points& positions,
-                          const Workers& workers) {
-  Eigen::VectorXd values(positions.cols());
-  workers.for_chunks(static_cast<std::size_t>(positions.cols()), points_per_chunk,
-                     [&](std::size_t, std::size_t begin, std::size_t end) {
+// n values, made chunk by chunk: part(chunk, first, count) gives those from `first` on.
+Eigen::VectorXd in_chunks(
+    Eigen::Index n, const Workers& workers,
+    const std::function<Eigen::VectorXd(std::size_t, Eigen::Index, Eigen::Index)>& part) {
+  Eigen::VectorXd values(n);
+  workers.for_chunks(static_cast<std::size_t>(n), points_per_chunk,
+                     [&](std::size_t chunk, std::size_t begin, std::size_t end) {
                        const auto first = static_cast<Eigen::Index>(begin);
                        const auto count = static_cast<Eigen::Index>(end - begin);
-                       values.segment(first, count) = field(positions.middleCols(first, count));
+                       values.segment(first, count) = part(chunk, first, count);
                      });
   return values;
 }
@@ -87,24 +90,22 @@ ModelRun run_model(PreparedScene& prepared, const SolverSettings& settings, std:
 Eigen::VectorXd surface_U_d(const ModelRun& run, const PreparedScene& prepared, std::size_t object,
                             const Points& positions, const Points& normals, std::uint64_t seed,
                             const Workers& workers) {
-  Eigen::VectorXd values(positions.cols());
   const SolvedChannel& channel = run.solved->objects[object].front();
-  workers.for_chunks(static_cast<std::size_t>(positions.cols()), points_per_chunk,
-                     [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                       const auto first = static_cast<Eigen::Index>(begin);
-                       const auto count = static_cast<Eigen::Index>(end - begin);
-                       values.segment(first, count) = leaving_U_d(
-                           channel, prepared.scene, *prepared.caster, prepared.translucent[object],
+  return in_chunks(
+      positions.cols(), workers, [&](std::size_t chunk, Eigen::Index first, Eigen::Index count) {
+        return leaving_U_d(channel, prepared.scene, *prepared.caster, prepared.translucent[object],
                            0, positions.middleCols(first, count), normals.middleCols(first, count),
                            seed + chunk);
-                     });
-  return values;
+      });
 }
 
 Eigen::VectorXd inner_U_d(const ModelRun& run, std::size_t object, const Points& positions,
                           const Eigen::VectorXd& U_ri, const Workers& workers) {
   const SolvedChannel& channel = run.solved->objects[object].front();
-  const Eigen::VectorXd values = in_chunks(channel.U_d, positions, workers);
+  const Eigen::VectorXd values = in_chunks(
+      positions.cols(), workers, [&](std::size_t, Eigen::Index first, Eigen::Index count) {
+        return channel.U_d(positions.middleCols(first, count));
+      });
   return channel.model == SourceModel::boundary_flux ? Eigen::VectorXd(values - U_ri) : values;
 }
 

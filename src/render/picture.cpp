@@ -75,9 +75,10 @@ class Picture {
     const Vec3 n = shading_normal(hit);
     const double cosine = std::clamp(-n.dot(ray.direction), least_cosine, 1.0);
     const GlowingSurface& surface = *surfaces_[hit.object];
-    const Spectrum entered = surface.counts_entering_light
-                                 ? entering_light(hit.position, n, material.ior, rng)
-                                 : Spectrum(Spectrum::Zero());
+    const Spectrum entered =
+        surface.counts_entering_light
+            ? mean_irradiance(scene_, caster_, hit.position, n, entering_samples, rng, material.ior)
+            : Spectrum(Spectrum::Zero());
     Spectrum light;
     for (int c = 0; c < 3; ++c) {
       const auto channel = static_cast<std::size_t>(std::min(c, scene_.channels - 1));
@@ -91,14 +92,6 @@ class Picture {
     const Vec3 mirrored = reflect(ray.direction, n);
     if (mirrored.dot(hit.normal) <= 0.0) return light;  // into the facet: smoothing's artefact
     return light + reflectance * radiance({hit.position, mirrored}, bounces - 1, rng);
-  }
-
-  Spectrum entering_light(const Vec3& position, const Vec3& n, double ior, Rng& rng) const {
-    const int samples = irradiance_is_exact(scene_) ? 1 : entering_samples;
-    Spectrum sum = Spectrum::Zero();
-    for (int i = 0; i < samples; ++i)
-      sum += sample_irradiance(scene_, caster_, position, n, rng, ior);
-    return sum / samples;
   }
 
   // What lies behind an index-matched object, weakened by exp(-sigma_t length). (A refracting one

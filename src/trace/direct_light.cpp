@@ -75,6 +75,13 @@ struct IrradianceSampler {
   }
 };
 
+bool irradiance_is_exact(const Scene& scene) {
+  return std::all_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return std::holds_alternative<PointLight>(light) ||
+           std::holds_alternative<DirectionalLight>(light);
+  });
+}
+
 }  // namespace
 
 Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& a,
@@ -106,11 +113,13 @@ Spectrum sample_irradiance(const Scene& scene, const RayCaster& caster, const Ve
   return sum;
 }
 
-bool irradiance_is_exact(const Scene& scene) {
-  return std::all_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return std::holds_alternative<PointLight>(light) ||
-           std::holds_alternative<DirectionalLight>(light);
-  });
+Spectrum mean_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
+                         const Vec3& normal, int samples, Rng& rng, double ior) {
+  const int needed = irradiance_is_exact(scene) ? 1 : samples;
+  Spectrum sum = Spectrum::Zero();
+  for (int i = 0; i < needed; ++i)
+    sum += sample_irradiance(scene, caster, position, normal, rng, ior);
+  return sum / needed;
 }
 
 std::optional<Spectrum> area_light_seen(const Scene& scene, const Ray& ray) {

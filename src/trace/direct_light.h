@@ -20,8 +20,10 @@ Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& 
 Spectrum sample_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
                            const Vec3& normal, Rng& rng, double ior = 1.0);
 
-// Whether sample_irradiance is exact: all lights are points or directions.
-bool irradiance_is_exact(const Scene& scene);
+// Mean of `samples` such estimates; of one if that is exact, since all lights are points or
+// directions.
+Spectrum mean_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
+                         const Vec3& normal, int samples, Rng& rng, double ior);
 
 // The radiance of the nearest area light that the ray meets before t_max (zero from behind), or
 // nothing if it meets none.
