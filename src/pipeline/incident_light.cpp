@@ -40,8 +40,12 @@ void append_split(std::array<IncidentHalf, 2>& halves, std::vector<VolumePhoton>
   halves[1].photons.insert(halves[1].photons.end(), middle, photons.end());
 }
 
+bool follows_returning_light(const PreparedScene& prepared) {
+  return prepared.scene.solver.returning_light && light_can_come_back(prepared);
+}
+
 std::size_t returning_photons(const PreparedScene& prepared) {
-  if (!light_can_come_back(prepared)) return 0;
+  if (!follows_returning_light(prepared)) return 0;
   return std::max<std::size_t>(
       1, std::llround(returning_share * static_cast<double>(prepared.scene.solver.photons)));
 }
@@ -102,14 +106,14 @@ std::vector<IncidentLight> trace_incident_light(const PreparedScene& prepared, i
   std::vector<IncidentLight> result(prepared.translucent.size());
   for (IncidentLight& light : result) {
     light.model = model;
-    light.has_walks = light_can_come_back(prepared);
+    light.has_walks = follows_returning_light(prepared);
   }
   TracerOptions walk;
   walk.seed = seed;
 
   if (model == SourceModel::photon_map && by_collisions(scene.solver)) {
     walk.photons = scene.solver.photons;
-    if (light_can_come_back(prepared)) walk.orders = TracerOptions::Orders::reentering;
+    if (follows_returning_light(prepared)) walk.orders = TracerOptions::Orders::reentering;
     TraceResult traced = trace_photons(scene, *prepared.caster, channel, walk, workers, stage);
     for (std::size_t i = 0; i < result.size(); ++i)
       append_split(result[i].halves, std::move(traced.photons[prepared.translucent[i]]));
@@ -140,7 +144,7 @@ std::vector<IncidentLight> trace_incident_light(const PreparedScene& prepared, i
       }
     }
   }
-  if (light_can_come_back(prepared)) {
+  if (follows_returning_light(prepared)) {
     walk.photons = returning_photons(prepared);
     walk.orders = TracerOptions::Orders::returned;
     TraceResult traced = trace_photons(scene, *prepared.caster, channel, walk, workers, stage);

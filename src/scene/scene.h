@@ -102,6 +102,7 @@ struct SolverSettings {
   Divergence divergence = Divergence::identity;
   std::optional<Deposits> deposits;
   std::optional<std::size_t> irradiance_samples;  // per object; irradiance models only
+  bool returning_light = true;                    // follow light that left and enters again
   bool similarity = false;                        // replace (sigma_s, g) by ((1 - g) sigma_s, 0)
   DensityEstimator estimator = DensityEstimator::nearest;
   std::optional<double> estimate_radius;  // of the ball of a density estimate, mean free paths

@@ -69,10 +69,10 @@ std::size_t default_photons(double tolerance) {
 }  // namespace
 
 SolverSettings read_solver(const YamlNode& node) {
-  check_keys(node,
-             {"tolerance", "source", "method", "boundary", "exitance", "photons", "knots", "jitter",
-              "shape_parameter", "svd_cut", "estimate_photons", "divergence", "deposits",
-              "similarity", "estimator", "estimate_radius", "irradiance_samples"});
+  check_keys(node, {"tolerance", "source", "method", "boundary", "exitance", "photons", "knots",
+                    "jitter", "shape_parameter", "svd_cut", "estimate_photons", "divergence",
+                    "deposits", "similarity", "returning_light", "estimator", "estimate_radius",
+                    "irradiance_samples"});
   SolverSettings solver;
   if (const auto* key = node.find("tolerance")) {
     solver.tolerance = read_number(*key, between_0_and_1);
@@ -100,6 +100,7 @@ SolverSettings read_solver(const YamlNode& node) {
     solver.divergence = read_choice(*key, divergences);
   }
   if (const auto* key = node.find("deposits")) solver.deposits = read_choice(*key, deposit_rules);
+  if (const auto* key = node.find("returning_light")) solver.returning_light = read_bool(*key);
   if (const auto* key = node.find("similarity")) solver.similarity = read_bool(*key);
   if (const auto* key = node.find("estimator")) solver.estimator = read_choice(*key, estimators);
   if (const auto* key = node.find("estimate_radius")) {
