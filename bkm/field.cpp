@@ -10,11 +10,11 @@ namespace {
 // sum_j weight_j kernel(s_j), batch after batch.
 template <typename Kernel>
 double weighted_sum(const PointColumns& points, const Eigen::VectorXd& weights, const Vec3& x,
-                    const Kernel& kernel) {
+                    DistancePrecision precision, const Kernel& kernel) {
   double sum = 0.0;
   for (Eigen::Index first = 0; first < weights.size(); first += batch_size) {
     const Eigen::Index n = std::min(batch_size, weights.size() - first);
-    const Batch w = kernel(squared_distances(points, first, n, x));
+    const Batch w = kernel(squared_distances(points, first, n, x, precision));
     sum += (w * weights.segment(first, n).array()).sum();
   }
   return sum;
@@ -25,13 +25,14 @@ struct ValueAndGradient {
   Vec3 gradient = Vec3::Zero();
 };
 
-// The same for values and gradients; kernel gives a RadialBatch.
-template <typename Kernel>
+// The same for values and gradients.
 void add_with_gradient(const PointColumns& points, const Eigen::VectorXd& weights, const Vec3& x,
-                       const Kernel& kernel, ValueAndGradient& sum) {
+                       DistancePrecision precision, const RadialFunction& function,
+                       ValueAndGradient& sum) {
   for (Eigen::Index first = 0; first < weights.size(); first += batch_size) {
     const Eigen::Index n = std::min(batch_size, weights.size() - first);
-    const RadialBatch w = kernel(squared_distances(points, first, n, x));
+    const RadialBatch w =
+        psi_with_slopes(function, squared_distances(points, first, n, x, precision));
     const Batch weight = weights.segment(first, n).array();
     sum.value += (w.value * weight).sum();
     const Batch pull = w.slope * weight;
@@ -43,11 +44,8 @@ void add_with_gradient(const PointColumns& points, const Eigen::VectorXd& weight
 ValueAndGradient value_and_gradient(const BkmBasis& basis, const Eigen::VectorXd& alpha,
                                     const Eigen::VectorXd& beta, const Vec3& x) {
   ValueAndGradient sum;
-  add_with_gradient(
-      basis.gaussian_centers, alpha, x, [&](const Batch& s) { return gaussians(s, basis.c); }, sum);
-  add_with_gradient(
-      basis.knots, beta, x,
-      [&](const Batch& s) { return nonsingular_solutions(s, basis.lambda, basis.R); }, sum);
+  add_with_gradient(basis.centers, alpha, x, basis.precision, basis.particular, sum);
+  add_with_gradient(basis.knots, beta, x, basis.precision, basis.homogeneous, sum);
   return sum;
 }
 
@@ -55,16 +53,15 @@ ValueAndGradient value_and_gradient(const BkmBasis& basis, const Eigen::VectorXd
 
 BkmField::BkmField(BkmBasis basis, Eigen::VectorXd alpha, Eigen::VectorXd beta)
     : basis_(std::move(basis)), alpha_(std::move(alpha)), beta_(std::move(beta)) {
-  assert(alpha_.size() == 0 || alpha_.size() == basis_.gaussian_centers.rows());
+  assert(alpha_.size() == 0 || alpha_.size() == basis_.centers.rows());
   assert(beta_.size() == 0 || beta_.size() == basis_.knots.rows());
 }
 
 double BkmField::value(const Vec3& x) const {
-  return weighted_sum(basis_.gaussian_centers, alpha_, x,
-                      [&](const Batch& s) { return gaussian_values(s, basis_.c); }) +
-         weighted_sum(basis_.knots, beta_, x, [&](const Batch& s) {
-           return nonsingular_values(s, basis_.lambda, basis_.R);
-         });
+  return weighted_sum(basis_.centers, alpha_, x, basis_.precision,
+                      [&](const Batch& s) { return psi_values(basis_.particular, s); }) +
+         weighted_sum(basis_.knots, beta_, x, basis_.precision,
+                      [&](const Batch& s) { return psi_values(basis_.homogeneous, s); });
 }
 
 Vec3 BkmField::gradient(const Vec3& x) const {
@@ -77,9 +74,11 @@ double BkmField::robin(const Vec3& x, const Vec3& n, double k) const {
 }
 
 double BkmField::source(const Vec3& x) const {
-  return weighted_sum(basis_.gaussian_centers, alpha_, x, [&](const Batch& s) {
-    return gaussian_helmholtz_values(s, basis_.c, basis_.lambda);
-  });
+  const double f = weighted_sum(basis_.centers, alpha_, x, basis_.precision,
+                                [&](const Batch& s) { return phi_values(basis_.particular, s); });
+  if (basis_.homogeneous.order == 0) return f;
+  return f + weighted_sum(basis_.knots, beta_, x, basis_.precision,
+                          [&](const Batch& s) { return phi_values(basis_.homogeneous, s); });
 }
 
 Eigen::VectorXd BkmField::values(const Points& x) const {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/bkm_choices.h"
 #include "core/vec3.h"
 
 namespace knotlight {
@@ -18,9 +19,11 @@ using Batch = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, batch_siz
 using PointColumns = Eigen::Array<double, Eigen::Dynamic, 3>;
 PointColumns point_columns(const Points& points);
 
-// |p_i - x|^2 of the points first .. first + n - 1; n <= batch_size.
+// |p_i - x|^2 of the points first .. first + n - 1; n <= batch_size. In single precision
+// coordinates, differences and their squares are float, as in the program of [V09 fig. 7.3 a].
 Batch squared_distances(const PointColumns& points, Eigen::Index first, Eigen::Index n,
-                        const Vec3& x);
+                        const Vec3& x,
+                        DistancePrecision precision = DistancePrecision::double_precision);
 
 // A radial function w(r): gradient of w(|x - p|) = slope * (x - p), without a division by r.
 struct RadialBatch {
@@ -31,6 +34,16 @@ struct RadialBatch {
 // s: squared distances, length^2. Same arguments as in kernels.h.
 Batch nonsingular_values(const Batch& s, double lambda, double R);
 RadialBatch nonsingular_solutions(const Batch& s, double lambda, double R);
+
+// Non-singular solution of order m [V09 6.8], without its factor sqrt(2/pi) and scaled like order
+// 0:
+//   U_m = exp(-lambda R) (r / (2 lambda))^m i_m(lambda r) / m!,   (lap - lambda^2) U_m = U_(m-1),
+// since (x^m i_m)'' + (2/x) (x^m i_m)' - x^m i_m = 2 m x^(m-1) i_(m-1). Only order 0 solves the
+// equation without source. length^(2m); lambda = 0 gives r^(2m) / (2m+1)!. 0 <= order <= max_order.
+constexpr int max_order = 4;
+Batch nonsingular_values(const Batch& s, double lambda, double R, int order);
+RadialBatch nonsingular_solutions(const Batch& s, double lambda, double R, int order);
+
 Batch gaussian_values(const Batch& s, double c);
 RadialBatch gaussians(const Batch& s, double c);
 Batch gaussian_helmholtz_values(const Batch& s, double c, double lambda);

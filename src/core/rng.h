@@ -19,6 +19,7 @@ enum class Stream : std::uint64_t {
   irradiance_points,
   irradiance_rays,
   tests,
+  random_projection,
 };
 
 // Permuted congruential generator PCG32 (XSH-RR), O'Neill 2014 [O14]; period 2^64.

@@ -10,6 +10,7 @@ namespace knotlight {
 struct CellSize {
   double h = 0.0;           // length
   double h_sigma_tr = 0.0;  // in transport mean free paths; the error grows as its square
+  double wanted = 0.0;      // by the rule, without the budget; length
   bool limited = false;     // the budget, not the rule, has set h
 };
 

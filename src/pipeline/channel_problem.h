@@ -37,6 +37,7 @@ struct ChannelProblem {
 using FieldValues = std::function<Eigen::VectorXd(const Points&)>;
 
 struct ChannelSolution {
+  Method method = Method::grid;  // that found it
   FieldValues U_d;      // with the model boundary_flux: U_ri + U_d, which it does not tell apart
   bool solved = false;  // false: U_d is not to be used, failures say why
   double numerical_error = 0.0;  // of solving the equations given the photons, relative

@@ -41,7 +41,9 @@ void append_split(std::array<IncidentHalf, 2>& halves, std::vector<VolumePhoton>
 }
 
 bool follows_returning_light(const PreparedScene& prepared) {
-  return prepared.scene.solver.returning_light && light_can_come_back(prepared);
+  const SolverSettings& settings = prepared.scene.solver;
+  return settings.returning_light.value_or(settings.boundary == Boundary::milne) &&
+         light_can_come_back(prepared);
 }
 
 std::size_t returning_photons(const PreparedScene& prepared) {

@@ -22,12 +22,12 @@ Report inspect_scene(const std::string& path, bool audit, RunContext& run, Scene
   const Scene& scene = prepared.scene;
   const Plan plan = make_plan(prepared);
   Report report;
-  for (const std::uint32_t index : prepared.translucent) {
-    const Object& object = scene.objects[index];
+  for (std::size_t i = 0; i < prepared.translucent.size(); ++i) {
+    const Object& object = scene.objects[prepared.translucent[i]];
     ObjectReport entry;
     entry.name = object.name;
     entry.source = plan.source_reason;
-    entry.method = plan.method_reason;
+    entry.method = plan.methods[i].reason;
     for (int c = 0; c < scene.channels; ++c)
       entry.validity.push_back(diffusion_validity(object.shape, object.translucent()->medium(c)));
     report.objects.push_back(entry);

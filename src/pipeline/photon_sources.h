@@ -8,13 +8,14 @@
 namespace knotlight {
 
 // Charges q of -lap U_d + lambda^2 U_d = sum q delta, W/(length sr), of half 0 or 1 of the light
-// (each an estimate of all of it), for the models photon_map and irradiance_sampling; with
-// boundary_flux those of the light that was scattered before it entered. Without what the object
-// emits, which is not made of points, and without the Robin data of boundary_flux. The source of
-// flights' ends on the surface (g != 0) stands for the boundary's right-hand side, which is then 0.
+// (each an estimate of all of it): of volume photons with every model, and of the points below the
+// surface with irradiance_sampling. Not in it: what the object emits, which is not made of points,
+// and the Robin data of boundary_flux. The Robin condition that goes with the charges has
+// right-hand side 0: with g != 0 its part is taken by the ends of flights, which are charges on the
+// surface.
 //
-// Each charge has the plane tangent to the surface at its nearest point. Its Robin image is dropped
-// where it would not stay clear of the body: the mirror point and the line behind it.
+// Each charge has the plane tangent to the surface at its nearest point, and as many charges of its
+// Robin image as stay clear of the body's surface (tangent_planes.h).
 PointSources photon_sources(const ChannelProblem& problem, int half);
 
 }  // namespace knotlight

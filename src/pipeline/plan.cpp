@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "pipeline/incident_light.h"
+#include "pipeline/solve_grid.h"
 #include "pipeline/validity.h"
 
 namespace knotlight {
@@ -57,7 +58,81 @@ void choose_source(const PreparedScene& prepared, Plan& plan) {
       "even sky, and save little";
 }
 
+const char* what_it_does(Method method) {
+  switch (method) {
+    case Method::bkm_thesis:
+      return "bkm_thesis: dual reciprocity with radial functions and the non-singular solution";
+    case Method::bkm:
+      return "bkm: photons in closed form with their Robin images, the rest by non-singular "
+             "solutions about knots on the whole surface";
+    case Method::mfs:
+      return "mfs: photons in closed form with their Robin images, the rest by sources outside";
+    case Method::lbkm:
+      return "lbkm: photons in closed form with their Robin images, the rest by small boundary "
+             "knot "
+             "problems in overlapping patches";
+    case Method::automatic:
+    case Method::grid:
+      return "grid: finite elements cut off at the surface, sources counted into cells";
+  }
+  return "";
+}
+
+// Cells somewhat larger than wanted still do: the error grows as their square, and the rule has a
+// factor of two in hand (docs/results/bars.md).
+constexpr double larger_cells_allowed = 1.35;
+
+MethodChoice choose_method(const PreparedScene& prepared, SourceModel source,
+                           std::uint32_t object) {
+  const auto because = [](Method method, const std::string& reason) {
+    return MethodChoice{method, fmt::format("{} (auto: {})", what_it_does(method), reason)};
+  };
+  if (source == SourceModel::irradiance_thesis)
+    return because(Method::bkm_thesis, "the one method that takes values at knots");
+  const Scene& scene = prepared.scene;
+  const CellSize cells = grid_cell_size(scene.objects[object], scene.channels, scene.solver);
+  const double larger = cells.h / cells.wanted;
+  if (larger <= larger_cells_allowed)
+    return because(Method::grid,
+                   "its cells of the size needed are affordable, and it is then the "
+                   "fastest");
+  return {Method::automatic,
+          fmt::format("bkm, or lbkm where bkm's residual is too large (auto: the cells of a grid "
+                      "would have to be {:.1f} times as large as needed)",
+                      larger)};
+}
+
+void check_source(SourceModel source, Method method) {
+  if (source == SourceModel::irradiance_thesis && method != Method::bkm_thesis)
+    throw InputError(
+        fmt::format("solver.source: irradiance_thesis gives values at knots, which {} does not "
+                    "have, expected solver.method bkm_thesis with it",
+                    name_of(method)));
+  if (source == SourceModel::irradiance_sampling && method == Method::bkm_thesis)
+    throw InputError(
+        "solver.source: irradiance_sampling gives points of power, which dual reciprocity cannot "
+        "interpolate, expected another solver.method with it");
+}
+
 }  // namespace
+
+const char* name_of(Method method) {
+  switch (method) {
+    case Method::automatic:
+      return "auto";
+    case Method::bkm_thesis:
+      return "bkm_thesis";
+    case Method::bkm:
+      return "bkm";
+    case Method::mfs:
+      return "mfs";
+    case Method::lbkm:
+      return "lbkm";
+    case Method::grid:
+      return "grid";
+  }
+  return "";
+}
 
 const char* name_of(SourceModel model) {
   switch (model) {
@@ -77,31 +152,11 @@ Plan make_plan(const PreparedScene& prepared) {
   const SolverSettings& settings = prepared.scene.solver;
   Plan plan;
   choose_source(prepared, plan);
-  const bool asked = settings.method != Method::automatic;
-  if (asked) {
-    plan.method = settings.method;
-  } else {
-    plan.method = plan.source == SourceModel::irradiance_thesis ? Method::bkm_thesis : Method::grid;
-  }
-  if (plan.method == Method::grid && plan.source == SourceModel::irradiance_thesis)
-    throw InputError(
-        "solver.source: irradiance_thesis gives values at knots, which grid does not have, "
-        "expected "
-        "solver.method bkm_thesis with it");
-  if (plan.method == Method::bkm_thesis && plan.source == SourceModel::irradiance_sampling)
-    throw InputError(
-        "solver.source: irradiance_sampling gives points of power, which dual reciprocity cannot "
-        "interpolate, expected solver.method grid with it");
-  plan.method_reason =
-      plan.method == Method::bkm_thesis
-          ? "bkm_thesis: dual reciprocity with Gaussians and the non-singular solution, both by "
-            "truncated SVD"
-          : "grid: finite elements cut off at the surface, sources counted into cells";
-  if (!asked)
-    plan.method_reason += plan.method == Method::bkm_thesis
-                              ? " (auto: the one method that takes values at knots)"
-                              : " (auto: the boundary knot method of this version is the thesis's, "
-                                "which misses the tolerance on most scenes)";
+  if (settings.method != Method::automatic) check_source(plan.source, settings.method);
+  for (const std::uint32_t object : prepared.translucent)
+    plan.methods.push_back(settings.method == Method::automatic
+                               ? choose_method(prepared, plan.source, object)
+                               : MethodChoice{settings.method, what_it_does(settings.method)});
   return plan;
 }
 

@@ -8,16 +8,21 @@
 
 namespace knotlight {
 
+struct MethodChoice {
+  Method method = Method::grid;  // automatic: bkm, and lbkm where that leaves too much
+  std::string reason;            // a sentence for people, starting with the method's name
+};
+
 struct Plan {
   SourceModel source = SourceModel::photon_map;
-  Method method = Method::grid;
-  std::string source_reason;  // a sentence for people, starting with the model's name
-  std::string method_reason;
+  std::string source_reason;          // a sentence for people, starting with the model's name
+  std::vector<MethodChoice> methods;  // one per translucent object, PreparedScene::translucent
 };
 
 // Throws InputError for a source model that the method asked for cannot take.
 Plan make_plan(const PreparedScene& prepared);
 
 const char* name_of(SourceModel model);
+const char* name_of(Method method);
 
 }  // namespace knotlight

@@ -17,6 +17,8 @@ struct ChannelReport {
   double lambda = 0.0;  // 1/length
   double k = 0.0;       // length
 
+  std::string method;  // that found the solution, as solver.method has it
+
   std::size_t photons = 0;     // recorded in the object
   double photon_power = 0.0;   // of the light that interacts first there, W
   double entered_power = 0.0;  // by irradiance samples; 0 with the photon map, W

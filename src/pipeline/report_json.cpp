@@ -62,8 +62,18 @@ void add_solution(Json& json, const std::vector<ChannelReport>& channels) {
   add("photons", [](auto& c) { return c.photons; });
   add("photon_power", [](auto& c) { return c.photon_power; });
   add("entered_power", [](auto& c) { return c.entered_power; });
-  for (std::size_t i = 0; i < channels.front().figures.size(); ++i)
-    add(channels.front().figures[i].first.c_str(), [i](auto& c) { return c.figures[i].second; });
+  add("methods", [](auto& c) { return c.method; });
+  // Channels may have been solved by different methods: what one of them does not tell is null.
+  for (const C& channel : channels)
+    for (const auto& figure : channel.figures) {
+      const std::string& name = figure.first;
+      if (json.contains(name)) continue;
+      add(name.c_str(), [&name](const C& c) -> Json {
+        for (const auto& [key, value] : c.figures)
+          if (key == name) return value;
+        return nullptr;
+      });
+    }
   add("numerical_error", [](auto& c) { return c.numerical_error; });
   add("noise", [](auto& c) { return c.noise; });
   add("error_estimate", [](auto& c) { return c.error_estimate; });

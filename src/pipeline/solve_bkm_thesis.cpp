@@ -8,6 +8,7 @@
 
 #include "bkm/certificate.h"
 #include "bkm/knots.h"
+#include "bkm/shape_parameter.h"
 #include "bkm/thesis_solver.h"
 #include "photon/source_terms.h"
 #include "pipeline/sample_points.h"
@@ -111,34 +112,80 @@ double largest(const Eigen::VectorXd& v) {
   return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
 }
 
+// Boundary and interior knots [V09 ch. 7].
+Places knot_places(const ChannelProblem& p, std::size_t count, std::size_t& dropped) {
+  const BkmThesisSettings& settings = p.settings.thesis;
+  const SurfaceKnots surface = surface_knots(p.shape, settings.knot_layout, count, p.seed);
+  const auto inside = [&](const Vec3& x) { return p.caster.inside(x, p.object); };
+  InteriorKnots interior;
+  if (settings.interior_knots == InteriorLayout::grid) {
+    // As many as two layers have.
+    interior = grid_knots(surface.points, volume(p.shape),
+                          2 * static_cast<std::size_t>(surface.points.cols()), inside);
+    dropped = 0;  // the corners of the box around the object are no knots that it lacks
+  } else {
+    std::vector<double> depths = layer_depths(settings.interior_knots);
+    for (double& depth : depths) depth /= p.medium.sigma_tr();
+    interior = interior_knots(surface.points, surface.normals, depths, inside);
+    dropped = interior.dropped;
+  }
+  return {{surface.points, surface.normals}, interior.points};
+}
+
+// Exponents of the two multiquadrics where the scene gives none: Hardy's, and that of the thesis's
+// pictures [V09 fig. 7.9].
+double default_exponent(RadialKind kind) {
+  return kind == RadialKind::inverse_multiquadric ? 3.0 : 1.0;
+}
+
+// `chosen` tells what leave-one-out found, if it was asked for.
+BkmThesisOptions thesis_options(const ChannelProblem& p, const BkmThesisProblem& problem,
+                                const Eigen::VectorXd& f, ShapeChoice& chosen) {
+  const BkmThesisSettings& settings = p.settings.thesis;
+  BkmThesisOptions options;
+  options.radial = settings.radial_function;
+  options.exponent = settings.radial_exponent.value_or(default_exponent(options.radial));
+  options.radial_order = settings.radial_order;
+  options.basis_order = settings.basis_order;
+  options.solver = settings.dense_solver;
+  options.precision = settings.distance_precision;
+  options.workers = p.workers;
+  if (settings.svd_cut) options.relative_cut = *settings.svd_cut;
+  const double spacing = mean_knot_spacing(
+      surface_area(p.shape), static_cast<std::size_t>(problem.boundary_points.cols()));
+  options.c = settings.shape_parameter.value_or(default_shape_parameter()) * spacing;
+  if (!settings.leave_one_out) return options;
+  chosen = leave_one_out_width(
+      all_points(problem), f,
+      radial_function(options, problem.lambda, diameter(problem.boundary_points)), spacing,
+      {options.precision, options.workers},
+      {options.solver, options.relative_cut, options.workers});
+  options.c = chosen.c;
+  return options;
+}
+
 }  // namespace
 
 ChannelSolution solve_by_bkm_thesis(const ChannelProblem& p) {
   ChannelSolution solution;
+  solution.method = Method::bkm_thesis;
 
-  // Knots [V09 ch. 7]: strata of the surface, and 1 and 3/2 transport mean free paths below them.
-  const std::size_t count = p.settings.knots.value_or(default_knots);
-  Places knots{columns(stratified_surface_points(p.shape, count, p.settings.jitter, p.seed,
-                                                 Stream::boundary_knots)),
-               {}};
-  const double mean_free_path = 1.0 / p.medium.sigma_tr();
-  const InteriorKnots interior = interior_knots(
-      knots.surface.positions, knots.surface.normals, {mean_free_path, 1.5 * mean_free_path},
-      [&](const Vec3& x) { return p.caster.inside(x, p.object); });
-  knots.interior = interior.points;
-
-  const BkmThesisProblem problem{p.coefficients.lambda, p.coefficients.k, knots.surface.positions,
-                                 knots.surface.normals, knots.interior};
-  BkmThesisOptions options;
-  options.c = p.settings.shape_parameter.value_or(default_shape_parameter()) *
-              mean_knot_spacing(surface_area(p.shape), count);
-  if (p.settings.svd_cut) options.relative_cut = *p.settings.svd_cut;
-  const BkmThesisSolver solver(problem, options);
+  const std::size_t wanted = p.settings.knots.value_or(default_knots);
+  std::size_t dropped = 0;
+  const Places knots = knot_places(p, wanted, dropped);
+  const auto count = static_cast<std::size_t>(knots.surface.positions.cols());
 
   const VolumePhotonMap maps[2] = {VolumePhotonMap(p.light.halves[0].photons, p.medium),
                                    VolumePhotonMap(p.light.halves[1].photons, p.medium)};
   const RightHandSides at_knots = right_hand_sides(knots, maps, true, p);
-  const BkmField field = solver.solve(at_knots.f(), at_knots.g());
+
+  const BkmThesisProblem problem{p.coefficients.lambda, p.coefficients.k, knots.surface.positions,
+                                 knots.surface.normals, knots.interior};
+  ShapeChoice chosen;
+  const BkmThesisOptions options = thesis_options(p, problem, at_knots.f(), chosen);
+  const BkmThesisSolver solver(problem, options);
+  BkmSolveFigures systems;
+  const BkmField field = solver.solve(at_knots.f(), at_knots.g(), systems);
   const BkmField half_field = solver.solve(at_knots.halves[0].f, at_knots.halves[0].g);
 
   const Places checks = check_places(p);
@@ -160,20 +207,27 @@ ChannelSolution solve_by_bkm_thesis(const ChannelProblem& p) {
     solution.failures.push_back(
         "the thesis's irradiance source is a value at knots, not a power density: what it adds up "
         "to depends on the number of knots");
-  if (interior.dropped > count)
+  const std::size_t interior_wanted = dropped + static_cast<std::size_t>(knots.interior.cols());
+  if (2 * dropped > interior_wanted)
     solution.failures.push_back(
         fmt::format("{} of {} interior knots would lie outside: the object is too thin for them",
-                    interior.dropped, 2 * count));
+                    dropped, interior_wanted));
 
   solution.figures = {
       {"boundary_knots", static_cast<double>(count)},
       {"interior_knots", static_cast<double>(knots.interior.cols())},
-      {"interior_knots_dropped", static_cast<double>(interior.dropped)},
-      {"gaussian_width", options.c},
+      {"interior_knots_dropped", static_cast<double>(dropped)},
+      {"radial_width", has_width(options.radial) ? options.c : 0.0},
+      {"leave_one_out_error", relative(chosen.error, root_mean_square(at_knots.f()))},
+      {"leave_one_out_factorisations", static_cast<double>(chosen.factorisations)},
       {"particular_rank", solver.particular_rank()},
       {"homogeneous_rank", solver.homogeneous_rank()},
       {"particular_condition", solver.particular_condition()},
       {"homogeneous_condition", solver.homogeneous_condition()},
+      {"particular_effective_condition", systems.particular_effective_condition},
+      {"homogeneous_effective_condition", systems.homogeneous_effective_condition},
+      {"particular_regulariser", systems.particular_regulariser},
+      {"homogeneous_regulariser", systems.homogeneous_regulariser},
       {"robin_residual", relative(certificate.robin_residual_max, certificate.scale)},
       {"source_residual", relative(certificate.source_residual_max, largest(f))}};
   solution.U_d = [field](const Points& x) { return field.values(x); };

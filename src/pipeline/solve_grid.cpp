@@ -19,8 +19,7 @@ constexpr double lost_allowed = 1e-3;   // share of the sources that found no ce
 
 }  // namespace
 
-ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
-                       const Workers& workers) {
+CellSize grid_cell_size(const Object& object, int channels, const SolverSettings& settings) {
   double sigma_tr = 0.0;
   double sigma_t = 0.0;
   for (int c = 0; c < channels; ++c) {
@@ -28,9 +27,14 @@ ObjectGrids make_grids(const Object& object, int channels, const SolverSettings&
     sigma_tr = std::max(sigma_tr, medium.sigma_tr());
     sigma_t = std::max(sigma_t, medium.sigma_t());
   }
+  return cell_size_for(object.shape, sigma_tr, sigma_t, settings.tolerance,
+                       cell_budget(settings.tolerance));
+}
+
+ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
+                       const Workers& workers) {
   ObjectGrids grids;
-  grids.size = cell_size_for(object.shape, sigma_tr, sigma_t, settings.tolerance,
-                             cell_budget(settings.tolerance));
+  grids.size = grid_cell_size(object, channels, settings);
   grids.fine = std::make_shared<GridGeometry>(object.shape, grids.size.h, workers);
   grids.coarse = std::make_shared<GridGeometry>(object.shape, 2.0 * grids.size.h, workers);
   return grids;

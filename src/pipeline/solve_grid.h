@@ -16,7 +16,8 @@ struct ObjectGrids {
   std::shared_ptr<const GridGeometry> coarse;
 };
 
-// Cells small enough for every channel of the object.
+// Cells small enough for every channel of the object, if the budget allows.
+CellSize grid_cell_size(const Object& object, int channels, const SolverSettings& settings);
 ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
                        const Workers& workers);
 

@@ -6,9 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "pipeline/plan.h"
 #include "pipeline/sample_points.h"
 #include "pipeline/solve_bkm_thesis.h"
+#include "pipeline/solve_boundary.h"
+#include "pipeline/solve_global.h"
 #include "pipeline/solve_grid.h"
+#include "pipeline/solve_lbkm.h"
 
 namespace knotlight {
 namespace {
@@ -74,6 +78,24 @@ constexpr std::size_t least_photons = 10'000;
 // be bad luck too.
 constexpr std::size_t least_lit_samples = 100;
 
+ChannelSolution solve_by(Method method, const ChannelProblem& problem) {
+  switch (method) {
+    case Method::bkm_thesis:
+      return solve_by_bkm_thesis(problem);
+    case Method::bkm:
+      return solve_by_bkm(problem);
+    case Method::mfs:
+      return solve_by_mfs(problem);
+    case Method::lbkm:
+      return solve_by_lbkm(problem);
+    case Method::grid:
+      return solve_by_grid(problem);
+    case Method::automatic:
+      return solve_by_boundary(problem);
+  }
+  return {};
+}
+
 // Comparisons are written so that not-a-number fails.
 void judge(const ChannelReport& r, double tolerance, std::vector<std::string>& failures) {
   const double allowed = tolerances_allowed * tolerance;
@@ -114,8 +136,9 @@ Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
 }
 
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
-                            int channel, const ObjectGrids* grids, const IncidentLight& light,
-                            std::uint64_t seed, const Workers& workers) {
+                            int channel, Method method, const ObjectGrids* grids,
+                            const IncidentLight& light, std::uint64_t seed,
+                            const Workers& workers) {
   const Medium medium = scene.objects[object].translucent()->medium(channel);
   const DiffusionCoefficients coefficients = diffusion_coefficients(medium, scene.solver.boundary);
   SolvedChannel result{light.model, {}, false, {}, {}};
@@ -132,12 +155,12 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
   report.photon_power = light.photon_power();
   report.entered_power = light.entered_power();
 
-  ChannelSolution solution =
-      grids != nullptr ? solve_by_grid(problem) : solve_by_bkm_thesis(problem);
+  ChannelSolution solution = solve_by(method, problem);
   result.solved = solution.solved;
   result.U_d = solution.solved ? std::move(solution.U_d) : [](const Points& x) -> Eigen::VectorXd {
     return Eigen::VectorXd::Constant(x.cols(), std::numeric_limits<double>::quiet_NaN());
   };
+  report.method = name_of(solution.method);
   report.figures = std::move(solution.figures);
   report.numerical_error = solution.numerical_error;
   report.noise = solution.noise;

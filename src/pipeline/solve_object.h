@@ -33,9 +33,10 @@ Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
                             const RayCaster& caster, std::uint32_t object, int channel_index,
                             const Points& positions, const Points& normals, std::uint64_t seed);
 
-// grids: of this object if the chosen method is grid, else null.
+// method: automatic stands for the better of the boundary methods. grids: of this object if the
+// method is grid, else null.
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
-                            int channel, const ObjectGrids* grids, const IncidentLight& light,
-                            std::uint64_t seed, const Workers& workers);
+                            int channel, Method method, const ObjectGrids* grids,
+                            const IncidentLight& light, std::uint64_t seed, const Workers& workers);
 
 }  // namespace knotlight

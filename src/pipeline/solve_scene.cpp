@@ -66,31 +66,41 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool kee
   }
 
   std::vector<std::optional<ObjectGrids>> grids(prepared.translucent.size());
-  if (plan.method == Method::grid) {
+  const auto on_grid = [&](std::size_t i) { return plan.methods[i].method == Method::grid; };
+  {
     Stage stage(run.stages, "grid", grids.size());
     for (std::size_t i = 0; i < grids.size(); ++i) {
-      grids[i] = make_grids(scene.objects[prepared.translucent[i]], scene.channels, scene.solver,
-                            run.workers);
+      if (on_grid(i))
+        grids[i] = make_grids(scene.objects[prepared.translucent[i]], scene.channels, scene.solver,
+                              run.workers);
       stage.advance();
     }
   }
 
-  // Every (object, channel) is a system of its own; they run side by side, each on one thread,
-  // since the dense solver's bits must not depend on the number of threads.
+  // Every (object, channel) is a system of its own. Those of methods that use several threads
+  // within one run one after the other; then the others side by side.
   const std::size_t systems = prepared.translucent.size() * channels;
   std::vector<std::optional<SolvedChannel>> solved(systems);
   {
     Stage stage(run.stages, "solve", systems);
-    run.workers.for_chunks(systems, 1, [&](std::size_t system, std::size_t, std::size_t) {
-      const std::uint32_t object = prepared.translucent[system / channels];
+    const auto solve = [&](std::size_t system, const Workers& workers) {
+      const std::size_t i = system / channels;
       const std::size_t channel = system % channels;
-      const auto& object_grids = grids[system / channels];
       solved[system] =
-          solve_channel(scene, *prepared.caster, object, static_cast<int>(channel),
-                        object_grids ? &*object_grids : nullptr, light[channel][system / channels],
-                        run.options.seed, Workers(1));
-      if (!keep_light) light[channel][system / channels] = {};  // freed as we go
+          solve_channel(scene, *prepared.caster, prepared.translucent[i], static_cast<int>(channel),
+                        plan.methods[i].method, grids[i] ? &*grids[i] : nullptr, light[channel][i],
+                        run.options.seed, workers);
+      if (!keep_light) light[channel][i] = {};  // freed as we go
       stage.advance();
+    };
+    std::vector<std::size_t> single;
+    for (std::size_t system = 0; system < systems; ++system)
+      if (on_grid(system / channels))
+        single.push_back(system);
+      else
+        solve(system, run.workers);
+    run.workers.for_chunks(single.size(), 1, [&](std::size_t, std::size_t begin, std::size_t) {
+      solve(single[begin], Workers(1));
     });
   }
 
@@ -118,7 +128,7 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool kee
     ObjectReport report;
     report.name = object.name;
     report.source = plan.source_reason;
-    report.method = plan.method_reason;
+    report.method = plan.methods[i].reason;
     result.objects.emplace_back();
     for (std::size_t c = 0; c < channels; ++c) {
       SolvedChannel& channel = *solved[i * channels + c];

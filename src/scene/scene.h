@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/bkm_choices.h"
 #include "core/environment_map.h"
 #include "core/medium.h"
 #include "core/shape.h"
@@ -86,6 +87,21 @@ enum class Divergence { identity, differentiated };
 enum class Deposits { expected_values, collisions };
 enum class DensityEstimator { nearest, radius, kernel };
 
+// Keys of the boundary knot method as the thesis has it; std::nullopt = chosen from the scene.
+struct BkmThesisSettings {
+  KnotLayout knot_layout = KnotLayout::jittered;
+  InteriorLayout interior_knots = InteriorLayout::two_layers;
+  RadialKind radial_function = RadialKind::gaussian;
+  std::optional<double> radial_exponent;  // b of the two multiquadrics
+  int radial_order = 1;                   // m of RadialKind::nonsingular
+  std::optional<double> shape_parameter;  // width c, in mean knot spacings
+  bool leave_one_out = false;             // choose the width by leave-one-out instead
+  int basis_order = 0;                    // m of the boundary basis
+  DenseMethod dense_solver = DenseMethod::svd;
+  std::optional<double> svd_cut;  // relative to the largest singular value
+  DistancePrecision distance_precision = DistancePrecision::double_precision;
+};
+
 // Keys left out of the scene stay at these defaults; std::nullopt = chosen from the scene.
 struct SolverSettings {
   double tolerance = 0.01;  // relative error aimed at
@@ -93,16 +109,15 @@ struct SolverSettings {
   Method method = Method::automatic;
   Boundary boundary = Boundary::milne;
   std::optional<Exitance> exitance;
-  std::size_t photons = 2'000'000;        // emitted towards the translucent objects, per channel
-  std::optional<std::size_t> knots;       // on the boundary of each object
-  bool jitter = true;                     // random point of each stratum, else its centre
-  std::optional<double> shape_parameter;  // Gaussian width c, in mean knot spacings
-  std::optional<double> svd_cut;          // relative to the largest singular value
+  std::size_t photons = 2'000'000;   // emitted towards the translucent objects, per channel
+  std::optional<std::size_t> knots;  // on the boundary of each object
+  BkmThesisSettings thesis;
   std::optional<std::size_t> estimate_photons;  // nearest photons in a density estimate
   Divergence divergence = Divergence::identity;
   std::optional<Deposits> deposits;
   std::optional<std::size_t> irradiance_samples;  // per object; irradiance models only
-  bool returning_light = true;                    // follow light that left and enters again
+  // Follow light that left and enters again; left out: with Boundary::milne.
+  std::optional<bool> returning_light;
   bool similarity = false;                        // replace (sigma_s, g) by ((1 - g) sigma_s, 0)
   DensityEstimator estimator = DensityEstimator::nearest;
   std::optional<double> estimate_radius;  // of the ball of a density estimate, mean free paths

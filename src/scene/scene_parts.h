@@ -36,6 +36,9 @@ std::vector<Object> read_objects(const YamlNode& node,
                                  const std::map<std::string, Material>& materials,
                                  SceneContext& context);
 SolverSettings read_solver(const YamlNode& node);
+// Of the solver section; bkm_thesis_keys are those it reads.
+extern const std::vector<std::string> bkm_thesis_keys;
+BkmThesisSettings read_bkm_thesis(const YamlNode& solver);
 
 // Half-edges u, v of a parallelogram: throws at `node` if they span no area.
 void check_parallelogram(const YamlNode& node, const Vec3& u, const Vec3& v);

@@ -17,9 +17,9 @@ constexpr std::array<Choice<SourceModel>, 4> source_models{{
 constexpr std::array<Choice<Method>, 6> methods{{
     {"auto", Method::automatic},
     {"bkm_thesis", Method::bkm_thesis},
-    {"bkm", Method::bkm, false},
-    {"mfs", Method::mfs, false},
-    {"lbkm", Method::lbkm, false},
+    {"bkm", Method::bkm},
+    {"mfs", Method::mfs},
+    {"lbkm", Method::lbkm},
     {"grid", Method::grid},
 }};
 constexpr std::array<Choice<Boundary>, 2> boundaries{{
@@ -47,8 +47,6 @@ constexpr std::array<Choice<DensityEstimator>, 3> estimators{{
 }};
 
 constexpr Range between_0_and_1{0.0, 1.0, true, true};
-// A Gaussian a millionth or a million knot spacings wide is a slip, not a choice.
-constexpr Range knot_spacings{1e-6, 1e6};
 // A ball of a thousand mean free paths averages over any object.
 constexpr Range estimate_radii{1e-6, 1e3};
 constexpr std::size_t max_photons = 500'000'000;            // 32 GB of them
@@ -69,10 +67,12 @@ std::size_t default_photons(double tolerance) {
 }  // namespace
 
 SolverSettings read_solver(const YamlNode& node) {
-  check_keys(node, {"tolerance", "source", "method", "boundary", "exitance", "photons", "knots",
-                    "jitter", "shape_parameter", "svd_cut", "estimate_photons", "divergence",
-                    "deposits", "similarity", "returning_light", "estimator", "estimate_radius",
-                    "irradiance_samples"});
+  std::vector<std::string> keys{
+      "tolerance",  "source",          "method",           "boundary",        "exitance",
+      "photons",    "knots",           "estimate_photons", "divergence",      "deposits",
+      "similarity", "returning_light", "estimator",        "estimate_radius", "irradiance_samples"};
+  keys.insert(keys.end(), bkm_thesis_keys.begin(), bkm_thesis_keys.end());
+  check_keys(node, keys);
   SolverSettings solver;
   if (const auto* key = node.find("tolerance")) {
     solver.tolerance = read_number(*key, between_0_and_1);
@@ -86,13 +86,12 @@ SolverSettings read_solver(const YamlNode& node) {
   if (const auto* key = node.find("knots")) {
     solver.knots = read_count(*key, min_knots, max_knots);
   }
-  if (const auto* key = node.find("jitter")) solver.jitter = read_bool(*key);
-  if (const auto* key = node.find("shape_parameter")) {
-    solver.shape_parameter = read_number(*key, knot_spacings);
-  }
-  if (const auto* key = node.find("svd_cut")) {
-    solver.svd_cut = read_number(*key, between_0_and_1);
-  }
+  solver.thesis = read_bkm_thesis(node);
+  if (solver.source == SourceModel::irradiance_thesis &&
+      solver.thesis.interior_knots != InteriorLayout::two_layers)
+    fail(*node.find("interior_knots"),
+         "has no knots one mean free path down, where irradiance_thesis puts its values, expected "
+         "two_layers with it");
   if (const auto* key = node.find("estimate_photons")) {
     solver.estimate_photons = read_count(*key, 2, max_estimate_photons);
   }

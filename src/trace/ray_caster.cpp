@@ -136,9 +136,15 @@ void sphere_occluded(const RTCOccludedFunctionNArguments* args) {
 struct NearestQuery {
   const EmbreeShape* shape;
   Vec3 p;
-  double distance;
-  SurfacePoint result;
+  double square;  // of the distance found so far
+  Vec3 position;
+  std::uint32_t primitive;
 };
+
+// Slack for the float rounding of the query: candidates at the same distance are still visited.
+float query_radius(double distance) {
+  return static_cast<float>(distance * (1.0 + 1e-5)) + 1e-6F;
+}
 
 bool nearest_callback(RTCPointQueryFunctionArguments* args) {
   auto* query = static_cast<NearestQuery*>(args->userPtr);
@@ -146,12 +152,12 @@ bool nearest_callback(RTCPointQueryFunctionArguments* args) {
   const Vec3 q =
       nearest_point_on_triangle(query->p, mesh.corner(args->primID, 0),
                                 mesh.corner(args->primID, 1), mesh.corner(args->primID, 2));
-  const double distance = (q - query->p).norm();
-  if (distance >= query->distance) return false;
-  query->distance = distance;
-  query->result = {q, mesh.normal(args->primID)};
-  // Slack for the float rounding of the query: candidates at the same distance are still visited.
-  args->query->radius = static_cast<float>(distance * query->shape->scale * (1.0 + 1e-5)) + 1e-6F;
+  const double square = (q - query->p).squaredNorm();
+  if (square >= query->square) return false;
+  query->square = square;
+  query->position = q;
+  query->primitive = args->primID;
+  args->query->radius = query_radius(std::sqrt(square) * query->shape->scale);
   return true;
 }
 
@@ -394,24 +400,32 @@ bool RayCaster::inside(const Vec3& p, std::uint32_t object) const {
   return implementation_->winding(p, object, probe_directions[2]) > 0;
 }
 
-SurfacePoint RayCaster::nearest_surface_point(const Vec3& p, std::uint32_t object) const {
+std::optional<NearestPoint> RayCaster::nearest_point(const Vec3& p, std::uint32_t object,
+                                                     double max_distance) const {
   const EmbreeShape& shape = implementation_->embree_shapes[object];
   if (shape.sphere != nullptr) {
     const Vec3 from_center = p - shape.sphere->center;
-    const Vec3 n = from_center.norm() > 0.0 ? Vec3(from_center.normalized()) : Vec3(Vec3::UnitZ());
-    return {shape.sphere->center + shape.sphere->radius * n, n};
+    const double r = from_center.norm();
+    const double distance = std::abs(r - shape.sphere->radius);
+    if (distance > max_distance) return std::nullopt;
+    const Vec3 n = r > 0.0 ? Vec3(from_center / r) : Vec3(Vec3::UnitZ());
+    return NearestPoint{{shape.sphere->center + shape.sphere->radius * n, n}, 0, distance};
   }
-  NearestQuery nearest{&shape, p, std::numeric_limits<double>::infinity(), {}};
+  NearestQuery nearest{&shape, p, max_distance * max_distance, Vec3::Zero(),
+                       RTC_INVALID_GEOMETRY_ID};
   const Vec3 q = (p - shape.center) * shape.scale;
   RTCPointQuery query{};
   query.x = static_cast<float>(q.x());
   query.y = static_cast<float>(q.y());
   query.z = static_cast<float>(q.z());
-  query.radius = std::numeric_limits<float>::infinity();
+  query.radius = query_radius(max_distance * shape.scale);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(implementation_->single[object], &query, &context, nearest_callback, &nearest);
-  return nearest.result;
+  if (nearest.primitive == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return NearestPoint{{nearest.position, shape.mesh->normal(nearest.primitive)},
+                      nearest.primitive,
+                      std::sqrt(nearest.square)};
 }
 
 std::vector<RayCaster::Crossing> RayCaster::crossings(const Ray& ray, std::uint32_t object) const {

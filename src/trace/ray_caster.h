@@ -29,6 +29,13 @@ struct Hit {
   Vec3 normal = Vec3::UnitZ();  // outward unit normal of the true shape
 };
 
+// Where on an object's surface a point is nearest to it.
+struct NearestPoint {
+  SurfacePoint surface;
+  std::uint32_t primitive = 0;  // triangle of a mesh; 0 for a sphere
+  double distance = 0.0;
+};
+
 class RayCaster {
  public:
   // Keeps copies of what it needs of the shapes.
@@ -49,7 +56,13 @@ class RayCaster {
   // Whether p is inside closed object `object` (winding number > 0).
   bool inside(const Vec3& p, std::uint32_t object) const;
   // The point of the object's surface nearest to p.
-  SurfacePoint nearest_surface_point(const Vec3& p, std::uint32_t object) const;
+  SurfacePoint nearest_surface_point(const Vec3& p, std::uint32_t object) const {
+    return nearest_point(p, object)->surface;
+  }
+  // The same with what it lies on; nothing if the surface is further away than max_distance.
+  std::optional<NearestPoint> nearest_point(
+      const Vec3& p, std::uint32_t object,
+      double max_distance = std::numeric_limits<double>::infinity()) const;
   // Length of the part of the ray (up to t_max) that lies inside the object, whatever it crosses.
   double path_length_inside(const Ray& ray, std::uint32_t object) const;
   // Distances at which the ray crosses the object's surface, increasing, with +1 for leaving and -1

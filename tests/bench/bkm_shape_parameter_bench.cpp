@@ -13,6 +13,7 @@
 #include <string>
 
 #include "bkm/knots.h"
+#include "bkm/shape_parameter.h"
 #include "bkm/thesis_solver.h"
 #include "core/shape.h"
 

@@ -55,14 +55,14 @@ double error_with(double (*round)(double), const BkmThesisProblem& p, const Exac
     }
 
   const Data d = data_of(exact, p);
-  const Eigen::VectorXd alpha = PseudoInverse(phi, -1.0).solve(d.f);
+  const Eigen::VectorXd alpha = DenseSolver(phi).solve(d.f);
   Eigen::VectorXd rest = d.g;
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < all; ++j) {
       const RadialValue w = gaussian(distance(centers.col(i), j), c);
       rest(i) -= alpha(j) * (w.value + k * w.derivative * slope(i, j));
     }
-  const Eigen::VectorXd beta = PseudoInverse(boundary, -1.0).solve(rest);
+  const Eigen::VectorXd beta = DenseSolver(boundary).solve(rest);
 
   double largest = 0.0;
   for (Eigen::Index i = 0; i < checks.cols(); ++i) {
@@ -91,6 +91,13 @@ TEST(FloatDistance, LosesTheSolution) {
   const double of_solver = max_error(BkmThesisSolver(p, {c, -1.0}).solve(d.f, d.g), exact, checks);
   EXPECT_LT(of_solver, 3.0 * in_double);
   EXPECT_GT(of_solver, in_double / 3.0);
+
+  // The option: coordinates and all arithmetic of distances in float.
+  BkmThesisOptions in_floats{c, -1.0};
+  in_floats.precision = DistancePrecision::single_precision;
+  const double of_floats = max_error(BkmThesisSolver(p, in_floats).solve(d.f, d.g), exact, checks);
+  EXPECT_GT(of_floats, 100.0 * in_double);
+  RecordProperty("error_of_option", fmt::format("{:.3g}", of_floats));
   RecordProperty("error_in_double", fmt::format("{:.3g}", in_double));
   RecordProperty("error_in_float", fmt::format("{:.3g}", in_float));
 }

@@ -20,7 +20,10 @@ constexpr double cut = 1e-14;
 
 int rank(int knots, double lambda, double k, double relative_cut = cut) {
   const Surface s = sphere(knots);
-  return PseudoInverse(robin_matrix(s.points, s.normals, lambda, k, 2.0), relative_cut).rank();
+  const RadialFunction w{RadialKind::nonsingular, 1.0, 1.0, 0, lambda, 2.0};
+  return DenseSolver(robin_matrix(s.points, s.normals, s.points, k, w),
+                     {DenseMethod::svd, relative_cut})
+      .rank();
 }
 
 // Five mean free paths, reduced albedo 0.9: lambda R = 2.74.

@@ -9,6 +9,7 @@
 
 #include "bkm/bkm_cases.h"
 #include "bkm/knots.h"
+#include "bkm/shape_parameter.h"
 
 namespace knotlight {
 namespace {

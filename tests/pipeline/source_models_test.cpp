@@ -101,7 +101,7 @@ TEST(SourceModels, ThesisIrradianceIsNeverTrusted) {
   const SolvedScene few = solve(prepared);
   prepared.scene.solver.knots = 300;
   const SolvedScene many = solve(prepared);
-  EXPECT_EQ(few.plan.method, Method::bkm_thesis);
+  EXPECT_EQ(few.plan.methods.at(0).method, Method::bkm_thesis);
   EXPECT_FALSE(few.report.failures.empty());
   const double ratio =
       many.objects[0][0].U_d_at(Vec3(0, 0, 0.5)) / few.objects[0][0].U_d_at(Vec3(0, 0, 0.5));

@@ -50,8 +50,14 @@ solver:
   photons: 2e5
   knots: 800
   jitter: false
+  interior_knots: near_layers
+  radial_function: inverse_multiquadric
+  radial_exponent: 2.5
   shape_parameter: 1.5
+  basis_order: 2
+  dense_solver: qr
   svd_cut: 1e-14
+  distance_precision: float
   estimate_photons: 100
   divergence: differentiated
   deposits: collisions
@@ -145,9 +151,17 @@ TEST(SceneReader, ReadsMaterialsAndSolver) {
   EXPECT_EQ(scene.solver.exitance, Exitance::p1);
   EXPECT_EQ(scene.solver.photons, 200'000u);
   EXPECT_EQ(scene.solver.knots, 800u);
-  EXPECT_FALSE(scene.solver.jitter);
-  EXPECT_EQ(scene.solver.shape_parameter, 1.5);
-  EXPECT_EQ(scene.solver.svd_cut, 1e-14);
+  const BkmThesisSettings& thesis = scene.solver.thesis;
+  EXPECT_EQ(thesis.knot_layout, KnotLayout::stratified);
+  EXPECT_EQ(thesis.interior_knots, InteriorLayout::near_layers);
+  EXPECT_EQ(thesis.radial_function, RadialKind::inverse_multiquadric);
+  EXPECT_EQ(thesis.radial_exponent, 2.5);
+  EXPECT_EQ(thesis.shape_parameter, 1.5);
+  EXPECT_FALSE(thesis.leave_one_out);
+  EXPECT_EQ(thesis.basis_order, 2);
+  EXPECT_EQ(thesis.dense_solver, DenseMethod::qr);
+  EXPECT_EQ(thesis.svd_cut, 1e-14);
+  EXPECT_EQ(thesis.distance_precision, DistancePrecision::single_precision);
   EXPECT_EQ(scene.solver.estimate_photons, 100u);
   EXPECT_EQ(scene.solver.divergence, Divergence::differentiated);
   EXPECT_EQ(scene.solver.deposits, Deposits::collisions);

@@ -212,9 +212,16 @@ TEST(RayCaster, NearestSurfacePointMatchesBruteForce) {
     const SurfacePoint nearest = caster.nearest_surface_point(p, 0);
     EXPECT_NEAR((nearest.position - p).norm(), best, rounding);
     EXPECT_NEAR(nearest.normal.norm(), 1.0, rounding);
+    const NearestPoint found = *caster.nearest_point(p, 0, best * 1.001);
+    EXPECT_NEAR(found.distance, best, rounding);
+    EXPECT_EQ(found.surface.normal, mesh.normal(found.primitive));
+    EXPECT_FALSE(caster.nearest_point(p, 0, best * 0.999).has_value());
     const SurfacePoint on_ball = caster.nearest_surface_point(p, 1);
     EXPECT_NEAR((on_ball.position - p).norm(), std::abs((p - Vec3(0, 0, 4)).norm() - 0.5),
                 rounding);
+    const double gap = (on_ball.position - p).norm();
+    EXPECT_NEAR(caster.nearest_point(p, 1, gap * 1.001)->distance, gap, rounding);
+    EXPECT_FALSE(caster.nearest_point(p, 1, gap * 0.999).has_value());
   }
 }
 

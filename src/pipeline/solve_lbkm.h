@@ -1,0 +1,10 @@
+// `method: lbkm`: photons in closed form, and small boundary knot problems in overlapping patches.
+#pragma once
+
+#include "pipeline/channel_problem.h"
+
+namespace knotlight {
+
+ChannelSolution solve_by_lbkm(const ChannelProblem& problem);
+
+}  // namespace knotlight
