@@ -53,6 +53,7 @@ class GlobalBkmSolver {
 
   // g: M values of u + k du/dn, W/(length^2 sr).
   GlobalField solve(const Eigen::VectorXd& g) const;
+  const GlobalBkmProblem& problem() const { return problem_; }
   Eigen::Index rank() const { return rank_; }
   // Largest over smallest pivot, of all columns: within a small factor the condition number.
   double condition() const;

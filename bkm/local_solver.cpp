@@ -72,18 +72,17 @@ LocalBkmSolver::LocalBkmSolver(std::shared_ptr<const PatchTree> tree, const Body
                                double lambda, double k, const LocalBkmOptions& options,
                                const Workers& workers)
     : tree_(std::move(tree)),
-      body_(body),
       options_(options),
       lambda_(lambda),
       size_((options.degree + 1) * (options.degree + 1)),
       systems_(tree_->patches().size()) {
   workers.for_chunks(systems_.size(), patches_per_chunk,
                      [&](std::size_t, std::size_t begin, std::size_t end) {
-                       for (std::size_t i = begin; i < end; ++i) factor(i, k);
+                       for (std::size_t i = begin; i < end; ++i) factor(i, body, k);
                      });
 }
 
-void LocalBkmSolver::factor(std::size_t index, double k) {
+void LocalBkmSolver::factor(std::size_t index, const BodyQueries& body, double k) {
   const SpreadKnots& knots = tree_->knots();
   const Patch& patch = tree_->patches()[index];
   System& s = systems_[index];
@@ -105,7 +104,7 @@ void LocalBkmSolver::factor(std::size_t index, double k) {
     const Vec3& x = patch.joints[static_cast<std::size_t>(i)];
     waves.values(x - patch.center, rows.col(m + i));
     s.weights[m + i] = std::sqrt(patch.joint_area);
-    const std::ptrdiff_t owner = tree_->owner(x, body_);
+    const std::ptrdiff_t owner = tree_->owner(x, body);
     s.neighbours[static_cast<std::size_t>(i)] = owner;
     const Patch& other = tree_->patches()[static_cast<std::size_t>(owner)];
     SphericalWaves(options_.degree, lambda_, other.radius)
@@ -168,11 +167,11 @@ LocalSolution LocalBkmSolver::solve(const Eigen::VectorXd& g, const Workers& wor
           iteration.residual <= options_.residual};
 }
 
-LocalField LocalBkmSolver::field(const LocalSolution& solution) const {
+LocalField LocalBkmSolver::field(const LocalSolution& solution, const BodyQueries& body) const {
   std::vector<Eigen::VectorXd> beta(systems_.size());
   for (std::size_t i = 0; i < beta.size(); ++i)
     beta[i] = solution.beta.segment(static_cast<Eigen::Index>(i) * size_, size_);
-  return {tree_, body_, options_.degree, lambda_, std::move(beta)};
+  return {tree_, body, options_.degree, lambda_, std::move(beta)};
 }
 
 Eigen::VectorXd LocalBkmSolver::residuals(std::size_t patch, const LocalSolution& solution,

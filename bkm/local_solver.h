@@ -58,7 +58,8 @@ class LocalBkmSolver {
 
   // g: u + k du/dn at all knots of the tree (only those of patches are read).
   LocalSolution solve(const Eigen::VectorXd& g, const Workers& workers) const;
-  LocalField field(const LocalSolution& solution) const;
+  // body: the same as that of the tree; it must outlive the field.
+  LocalField field(const LocalSolution& solution, const BodyQueries& body) const;
   // Two solutions for independent estimates of the same data: the root of the mean product of their
   // residuals, in which noise averages out and only what the patches cannot represent is left.
   // Twice the same solution gives plain rms residuals.
@@ -76,7 +77,7 @@ class LocalBkmSolver {
     std::vector<std::ptrdiff_t> neighbours;  // per joint: the patch that owns it
     Eigen::MatrixXd neighbour_rows;          // unknowns of a neighbour x joints
   };
-  void factor(std::size_t patch, double k);
+  void factor(std::size_t patch, const BodyQueries& body, double k);
   Eigen::VectorXd joint_values(const System& s, const Eigen::VectorXd& beta) const;
   Eigen::VectorXd knot_data(std::size_t patch, const Eigen::VectorXd& g) const;
   // g - (u + k du/dn) at the knots, then differences at the joints.
@@ -85,7 +86,6 @@ class LocalBkmSolver {
   void for_patches(const Workers& workers, const std::function<void(std::size_t)>& body) const;
 
   std::shared_ptr<const PatchTree> tree_;
-  BodyQueries body_;
   LocalBkmOptions options_;
   double lambda_;
   Eigen::Index size_;  // unknowns per patch

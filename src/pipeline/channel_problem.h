@@ -9,6 +9,7 @@
 
 #include "core/medium.h"
 #include "core/parallel.h"
+#include "pipeline/factor_cache.h"
 #include "pipeline/incident_light.h"
 #include "pipeline/sample_points.h"
 #include "scene/scene.h"
@@ -31,6 +32,11 @@ struct ChannelProblem {
   std::uint32_t object;  // index in the caster
   std::uint64_t seed;
   const Workers& workers;
+  FactorCache& factors;
+
+  FactorCache::Key factor_key(Method method) const {
+    return {object, method, coefficients.lambda, coefficients.k};
+  }
 };
 
 // U_d at points in or on the object (3 x N), N values, W/(length^2 sr).

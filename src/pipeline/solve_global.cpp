@@ -50,6 +50,36 @@ Points sources_outside(const Points& positions, const Points& normals, double di
   return sources;
 }
 
+Method method_of(GlobalBasis basis) {
+  return basis == GlobalBasis::exterior_sources ? Method::mfs : Method::bkm;
+}
+
+struct GlobalFactors {
+  std::size_t count;  // of basis functions
+  SpreadKnots knots;
+  GlobalBkmSolver solver;
+};
+
+// The system with so many knots, factored now or by an earlier light.
+std::shared_ptr<const GlobalFactors> kept_factors(const ChannelProblem& p, GlobalBasis basis,
+                                                  std::size_t count) {
+  const FactorCache::Key key = p.factor_key(method_of(basis));
+  if (auto kept = p.factors.find<GlobalFactors>(key); kept && kept->count == count) return kept;
+  SpreadKnots knots = spread_surface_knots(p.shape, rows_per_knot * count, p.seed);
+  const auto n = static_cast<Eigen::Index>(count);
+  GlobalBkmProblem problem{p.coefficients.lambda, p.coefficients.k, knots.positions.leftCols(n),
+                           knots.positions, knots.normals};
+  if (basis == GlobalBasis::exterior_sources)
+    problem.centers = sources_outside(problem.centers, knots.normals.leftCols(n),
+                                      source_distance * mean_knot_spacing(knots.area, count), p);
+  auto factors = std::make_shared<const GlobalFactors>(
+      GlobalFactors{count, std::move(knots),
+                    GlobalBkmSolver(std::move(problem), basis,
+                                    p.settings.thesis.svd_cut.value_or(cut), p.workers)});
+  p.factors.put(key, factors);
+  return factors;
+}
+
 ChannelSolution solve_by_global(const ChannelProblem& p, GlobalBasis basis) {
   ChannelSolution solution;
   const double k = p.coefficients.k;
@@ -60,28 +90,26 @@ ChannelSolution solve_by_global(const ChannelProblem& p, GlobalBasis basis) {
 
   BoundaryVerdict verdict;
   std::size_t count = least;
+  // An earlier light has found out how many knots it takes.
+  if (const auto kept = p.factors.find<GlobalFactors>(p.factor_key(method_of(basis))))
+    count = kept->count;
+  const std::size_t first = count;
   for (;; count *= 2) {
-    const SpreadKnots knots = spread_surface_knots(p.shape, rows_per_knot * count, p.seed);
-    const auto n = static_cast<Eigen::Index>(count);
-    GlobalBkmProblem problem{p.coefficients.lambda, k, knots.positions.leftCols(n), knots.positions,
-                             knots.normals};
-    if (basis == GlobalBasis::exterior_sources)
-      problem.centers = sources_outside(problem.centers, knots.normals.leftCols(n),
-                                        source_distance * mean_knot_spacing(knots.area, count), p);
-    const GlobalBkmSolver solver(problem, basis, p.settings.thesis.svd_cut.value_or(cut),
-                                 p.workers);
-    const BoundaryData data = boundary_data(p, *particular, knots.positions, knots.normals, p.seed);
+    const std::shared_ptr<const GlobalFactors> factors = kept_factors(p, basis, count);
+    const GlobalBkmSolver& solver = factors->solver;
+    const BoundaryData data =
+        boundary_data(p, *particular, factors->knots.positions, factors->knots.normals, p.seed);
     const GlobalField halves[2] = {solver.solve(data.g[0]), solver.solve(data.g[1])};
     const BoundaryVerdict found =
         judge_boundary(p, checks, {part(halves[0], k), part(halves[1], k)});
     const bool better =
-        count == least || found.robin_residual < worth_doubling * verdict.robin_residual;
-    if (count == least || found.robin_residual < verdict.robin_residual) {
+        count == first || found.robin_residual < worth_doubling * verdict.robin_residual;
+    if (count == first || found.robin_residual < verdict.robin_residual) {
       verdict = found;
-      const GlobalField mean(basis, p.coefficients.lambda, problem.centers,
+      const GlobalField mean(basis, p.coefficients.lambda, solver.problem().centers,
                              0.5 * (halves[0].coefficients() + halves[1].coefficients()));
       solution = boundary_solution(p, particular, verdict, part(mean, k));
-      solution.method = basis == GlobalBasis::exterior_sources ? Method::mfs : Method::bkm;
+      solution.method = method_of(basis);
       solution.figures.insert(
           solution.figures.end(),
           {{"boundary_knots", static_cast<double>(count)},

@@ -17,6 +17,23 @@ namespace {
 constexpr double coarsest_cells = 2.0;  // transport mean free paths
 constexpr double lost_allowed = 1e-3;   // share of the sources that found no cell
 
+// The multigrid hierarchies of both grids.
+struct GridFactors {
+  GridSolver fine, coarse;
+};
+
+std::shared_ptr<const GridFactors> kept_factors(const ChannelProblem& p) {
+  const FactorCache::Key key = p.factor_key(Method::grid);
+  auto factors = p.factors.find<GridFactors>(key);
+  if (!factors) {
+    const double lambda = p.coefficients.lambda, k = p.coefficients.k;
+    factors = std::make_shared<const GridFactors>(
+        GridFactors{GridSolver(p.grids->fine, lambda, k), GridSolver(p.grids->coarse, lambda, k)});
+    p.factors.put(key, factors);
+  }
+  return factors;
+}
+
 }  // namespace
 
 CellSize grid_cell_size(const Object& object, int channels, const SolverSettings& settings) {
@@ -49,15 +66,14 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
     return solution;
   }
 
-  const double lambda = p.coefficients.lambda;
-  const double k = p.coefficients.k;
-  const GridSolver fine(grids.fine, lambda, k);
+  const std::shared_ptr<const GridFactors> factors = kept_factors(p);
+  const GridSolver& fine = factors->fine;
   const GridLoad loads[2] = {incident_load(*grids.fine, p.light.halves[0], p),
                              incident_load(*grids.fine, p.light.halves[1], p)};
   const GridSolution halves[2] = {fine.solve(loads[0]), fine.solve(loads[1])};
   const GridField field(grids.fine, 0.5 * (halves[0].field.nodes() + halves[1].field.nodes()));
 
-  const GridSolver coarse(grids.coarse, lambda, k);
+  const GridSolver& coarse = factors->coarse;
   const Eigen::VectorXd coarse_load =
       0.5 * (incident_load(*grids.coarse, p.light.halves[0], p).values() +
              incident_load(*grids.coarse, p.light.halves[1], p).values());

@@ -14,7 +14,7 @@ namespace {
 
 // A patch resolves waves that change by a factor e over half of its width. They do so next to the
 // surface; deep inside little light is left, and patches need only stay clear of overflow.
-constexpr double widest_at_surface = 2.0;  // 1/lambda
+constexpr double widest_at_surface = 1.0;  // 1/lambda
 constexpr double widest = 100.0;           // 1/lambda
 // But the first round leaves most of the patches to be spent where misfits are.
 constexpr double first_share = 0.25;
@@ -46,6 +46,33 @@ PatchTreeOptions first_patches(const ChannelProblem& p) {
   options.widest_at_surface = std::max(widest_at_surface / lambda, affordable);
   options.widest = std::max(widest / lambda, affordable);
   return options;
+}
+
+// Patches split where an earlier light needed it, factored.
+struct LocalFactors {
+  std::shared_ptr<const SpreadKnots> knots;
+  std::shared_ptr<const PatchTree> tree;
+  LocalBkmSolver solver;
+};
+
+// On a tree as it is split, without patches yet.
+std::shared_ptr<const LocalFactors> factor(std::shared_ptr<const SpreadKnots> knots,
+                                           std::shared_ptr<PatchTree> tree, const BodyQueries& body,
+                                           const ChannelProblem& p) {
+  tree->make_patches(body, p.workers);
+  auto factors = std::make_shared<const LocalFactors>(LocalFactors{
+      std::move(knots), tree,
+      LocalBkmSolver(tree, body, p.coefficients.lambda, p.coefficients.k, {}, p.workers)});
+  p.factors.put(p.factor_key(Method::lbkm), factors);
+  return factors;
+}
+
+std::shared_ptr<const LocalFactors> first_factors(const BodyQueries& body,
+                                                  const ChannelProblem& p) {
+  if (auto kept = p.factors.find<LocalFactors>(p.factor_key(Method::lbkm))) return kept;
+  auto knots =
+      std::make_shared<const SpreadKnots>(spread_surface_knots(p.shape, knot_choices, p.seed));
+  return factor(knots, std::make_shared<PatchTree>(knots, first_patches(p)), body, p);
 }
 
 // The Robin data at the knots, evaluated where a round needs them for the first time.
@@ -118,34 +145,31 @@ std::vector<std::size_t> leaves_to_split(const PatchTree& tree, const LocalMisfi
 
 ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
   ChannelSolution solution;
-  const double lambda = p.coefficients.lambda;
   const double k = p.coefficients.k;
   const auto particular = std::make_shared<const ParticularSolution>(p, particular_options(p));
   const BodyQueries body = body_queries(p);
-  const auto knots =
-      std::make_shared<const SpreadKnots>(spread_surface_knots(p.shape, knot_choices, p.seed));
   const BoundaryChecks checks = boundary_checks(p, *particular);
-  KnotData data(p, *particular, *knots);
-
-  auto tree = std::make_shared<PatchTree>(knots, first_patches(p));
+  std::shared_ptr<const LocalFactors> factors = first_factors(body, p);
+  KnotData data(p, *particular, *factors->knots);
   std::vector<double> residuals;  // round by round
   for (int round = 1;; ++round) {
-    tree->make_patches(body, p.workers);
-    const LocalBkmSolver solver(tree, body, lambda, k, LocalBkmOptions{}, p.workers);
+    const PatchTree& tree = *factors->tree;
+    const LocalBkmSolver& solver = factors->solver;
     data.evaluate(solver.knots_used());
     const LocalSolution halves[2] = {solver.solve(data.g[0], p.workers),
                                      solver.solve(data.g[1], p.workers)};
     const BoundaryVerdict verdict = judge_boundary(
-        p, checks, {part(solver.field(halves[0]), k), part(solver.field(halves[1]), k)});
+        p, checks,
+        {part(solver.field(halves[0], body), k), part(solver.field(halves[1], body), k)});
     LocalSolution mean = halves[0];
     mean.beta = 0.5 * (halves[0].beta + halves[1].beta);
-    solution = boundary_solution(p, particular, verdict, part(solver.field(mean), k));
+    solution = boundary_solution(p, particular, verdict, part(solver.field(mean, body), k));
     solution.method = Method::lbkm;
     if (!halves[0].converged || !halves[1].converged)
       solution.failures.push_back("the iteration over the patches did not converge");
     solution.figures.insert(
         solution.figures.end(),
-        {{"patches", static_cast<double>(tree->patches().size())},
+        {{"patches", static_cast<double>(tree.patches().size())},
          {"unknowns", static_cast<double>(solver.unknowns())},
          {"boundary_knots", static_cast<double>(data.count)},
          {"rounds", static_cast<double>(round)},
@@ -155,7 +179,7 @@ ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
       fmt::print(stderr,
                  "round {} patches {} knots {} its {} scale {:.3e} noise {:.2e} robin {:.2e} "
                  "largest {:.2e}\n",
-                 round, tree->patches().size(), data.count, halves[0].iterations, verdict.scale,
+                 round, tree.patches().size(), data.count, halves[0].iterations, verdict.scale,
                  verdict.noise, verdict.robin_residual, verdict.largest_residual);
 
     if (!(verdict.robin_residual > residual_wanted * p.settings.tolerance) ||
@@ -164,11 +188,12 @@ ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
       break;
     residuals.push_back(verdict.robin_residual);
     const LocalMisfit misfit = solver.misfit(halves[0], data.g[0], halves[1], data.g[1], p.workers);
-    const std::vector<std::size_t> leaves = leaves_to_split(*tree, misfit);
-    if (leaves.empty() || tree->patches().size() + 4 * leaves.size() > most_patches) break;
-    // The field found so far keeps the tree as it is.
-    tree = std::make_shared<PatchTree>(*tree);
-    for (const std::size_t leaf : leaves) tree->split(leaf);
+    const std::vector<std::size_t> leaves = leaves_to_split(tree, misfit);
+    if (leaves.empty() || tree.patches().size() + 4 * leaves.size() > most_patches) break;
+    // The field found so far keeps its tree as it is.
+    auto finer = std::make_shared<PatchTree>(tree);
+    for (const std::size_t leaf : leaves) finer->split(leaf);
+    factors = factor(factors->knots, std::move(finer), body, p);
   }
   return solution;
 }

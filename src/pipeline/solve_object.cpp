@@ -137,8 +137,8 @@ Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
 
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
                             int channel, Method method, const ObjectGrids* grids,
-                            const IncidentLight& light, std::uint64_t seed,
-                            const Workers& workers) {
+                            const IncidentLight& light, std::uint64_t seed, const Workers& workers,
+                            FactorCache& factors) {
   const Medium medium = scene.objects[object].translucent()->medium(channel);
   const DiffusionCoefficients coefficients = diffusion_coefficients(medium, scene.solver.boundary);
   SolvedChannel result{light.model, {}, false, {}, {}};
@@ -147,7 +147,8 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
                                coefficients, scene.solver,
                                light,        grids,
                                caster,       object,
-                               seed,         workers};
+                               seed,         workers,
+                               factors};
   ChannelReport& report = result.report;
   report.lambda = coefficients.lambda;
   report.k = coefficients.k;

@@ -37,6 +37,7 @@ Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
 // method is grid, else null.
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
                             int channel, Method method, const ObjectGrids* grids,
-                            const IncidentLight& light, std::uint64_t seed, const Workers& workers);
+                            const IncidentLight& light, std::uint64_t seed, const Workers& workers,
+                            FactorCache& factors);
 
 }  // namespace knotlight

@@ -50,9 +50,28 @@ std::vector<std::string> lamps_inside(const PreparedScene& prepared) {
   return lamps;
 }
 
+// The grids of an object, all its channels share them.
+ObjectGrids kept_grids(std::uint32_t index, const Object& object, const Scene& scene,
+                       const RunContext& run, FactorCache& factors) {
+  const FactorCache::Key key{index, Method::automatic, 0.0, 0.0};  // no method's own
+  auto grids = factors.find<ObjectGrids>(key);
+  if (!grids) {
+    grids = std::make_shared<const ObjectGrids>(
+        make_grids(object, scene.channels, scene.solver, run.workers));
+    factors.put(key, grids);
+  }
+  return *grids;
+}
+
 }  // namespace
 
 SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool keep_light) {
+  FactorCache factors;
+  return solve_scene(prepared, run, factors, keep_light);
+}
+
+SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCache& factors,
+                        bool keep_light) {
   const Scene& scene = prepared.scene;
   const auto channels = static_cast<std::size_t>(scene.channels);
 
@@ -71,8 +90,8 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool kee
     Stage stage(run.stages, "grid", grids.size());
     for (std::size_t i = 0; i < grids.size(); ++i) {
       if (on_grid(i))
-        grids[i] = make_grids(scene.objects[prepared.translucent[i]], scene.channels, scene.solver,
-                              run.workers);
+        grids[i] = kept_grids(prepared.translucent[i], scene.objects[prepared.translucent[i]],
+                              scene, run, factors);
       stage.advance();
     }
   }
@@ -89,7 +108,7 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool kee
       solved[system] =
           solve_channel(scene, *prepared.caster, prepared.translucent[i], static_cast<int>(channel),
                         plan.methods[i].method, grids[i] ? &*grids[i] : nullptr, light[channel][i],
-                        run.options.seed, workers);
+                        run.options.seed, workers, factors);
       if (!keep_light) light[channel][i] = {};  // freed as we go
       stage.advance();
     };

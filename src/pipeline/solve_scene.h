@@ -21,5 +21,9 @@ struct SolvedScene {
 };
 
 SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool keep_light = false);
+// The same with systems factored by an earlier solve of the same objects and materials under other
+// lights, and kept for the next: only photons and back-substitutions are left to do.
+SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCache& factors,
+                        bool keep_light = false);
 
 }  // namespace knotlight

@@ -23,6 +23,7 @@ struct OneBody {
   Medium medium;
   DiffusionCoefficients coefficients;
   IncidentLight light;
+  FactorCache factors;
 
   OneBody(Shape shape, const Medium& m, std::size_t photons) : medium(m) {
     TranslucentMaterial material;
@@ -41,7 +42,7 @@ struct OneBody {
     Stage stage(stages, "light", 1);
     light = trace_incident_light(prepared, 0, model, seed, workers, stage)[0];
   }
-  ChannelProblem problem() const {
+  ChannelProblem problem() {
     return {prepared.scene,
             prepared.scene.objects[0].shape,
             0,
@@ -53,7 +54,8 @@ struct OneBody {
             *prepared.caster,
             0,
             1,
-            workers};
+            workers,
+            factors};
   }
 };
 
