@@ -102,7 +102,7 @@ ChannelSolution solve_by_global(const ChannelProblem& p, GlobalBasis basis) {
     const GlobalField halves[2] = {solver.solve(data.g[0]), solver.solve(data.g[1])};
     const BoundaryVerdict found =
         judge_boundary(p, checks, {part(halves[0], k), part(halves[1], k)});
-    const bool better =
+    const bool worthwhile =
         count == first || found.robin_residual < worth_doubling * verdict.robin_residual;
     if (count == first || found.robin_residual < verdict.robin_residual) {
       verdict = found;
@@ -118,11 +118,7 @@ ChannelSolution solve_by_global(const ChannelProblem& p, GlobalBasis basis) {
            {"largest_coefficient",
             relative(mean.coefficients().cwiseAbs().maxCoeff(), verdict.scale)}});
     }
-    if (getenv("KL_DEBUG"))
-      fmt::print(stderr, "knots {} rank {} cond {:.1e} scale {:.3e} noise {:.2e} robin {:.2e}\n",
-                 count, solver.rank(), solver.condition(), found.scale, found.noise,
-                 found.robin_residual);
-    if (!better || 2 * count > most ||
+    if (!worthwhile || 2 * count > most ||
         found.robin_residual <= misfit_allowed * p.settings.tolerance)
       break;
   }

@@ -14,7 +14,7 @@ namespace {
 
 // A patch resolves waves that change by a factor e over half of its width. They do so next to the
 // surface; deep inside little light is left, and patches need only stay clear of overflow.
-constexpr double widest_at_surface = 1.0;  // 1/lambda
+constexpr double widest_at_surface = 2.0;  // 1/lambda
 constexpr double widest = 100.0;           // 1/lambda
 // But the first round leaves most of the patches to be spent where misfits are.
 constexpr double first_share = 0.25;
@@ -175,13 +175,6 @@ ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
          {"rounds", static_cast<double>(round)},
          {"iterations", static_cast<double>(halves[0].iterations)},
          {"largest_coefficient", relative(mean.beta.cwiseAbs().maxCoeff(), verdict.scale)}});
-    if (getenv("KL_DEBUG"))
-      fmt::print(stderr,
-                 "round {} patches {} knots {} its {} scale {:.3e} noise {:.2e} robin {:.2e} "
-                 "largest {:.2e}\n",
-                 round, tree.patches().size(), data.count, halves[0].iterations, verdict.scale,
-                 verdict.noise, verdict.robin_residual, verdict.largest_residual);
-
     if (!(verdict.robin_residual > residual_wanted * p.settings.tolerance) ||
         (round > 2 && verdict.robin_residual > worth_splitting * residuals.end()[-2]) ||
         round == most_rounds)
