@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace knotlight {
 namespace {
@@ -31,6 +32,59 @@ std::vector<Vec3> cube_points(const Vec3& center, double half, int per_edge) {
           points.push_back(center + half * x);
         }
   return points;
+}
+
+// Child c of a cube lies in this direction.
+Vec3 octant(int c) {
+  return Vec3((c & 1) != 0 ? 1.0 : -1.0, (c & 2) != 0 ? 1.0 : -1.0, (c & 4) != 0 ? 1.0 : -1.0);
+}
+
+std::size_t octant_of(const Vec3& d) {
+  return (d.x() > 0 ? 1U : 0U) + (d.y() > 0 ? 2U : 0U) + (d.z() > 0 ? 4U : 0U);
+}
+
+// Which points hang together.
+struct Connection {
+  std::vector<std::size_t> part;        // of each point
+  std::vector<std::vector<Vec3>> hubs;  // of each part: from one of them each point can be seen
+};
+
+// From the most central point everything that can be seen, then from what was found, until nothing
+// more turns up: the first part. The next starts from what is left.
+Connection connect(const std::vector<Vec3>& points, const Vec3& center, const BodyQueries& body) {
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  Connection connection;
+  connection.part.assign(points.size(), none);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const double da = (points[a] - center).squaredNorm();
+    const double db = (points[b] - center).squaredNorm();
+    return da < db || (da == db && a < b);
+  });
+  for (const std::size_t seed : order) {
+    if (connection.part[seed] != none) continue;
+    const std::size_t mine = connection.hubs.size();
+    connection.hubs.emplace_back();
+    connection.part[seed] = mine;
+    std::vector<std::size_t> found{seed};
+    bool complete = false;
+    for (std::size_t q = 0; q < found.size() && q < most_hubs && !complete; ++q) {
+      const Vec3 hub = points[found[q]];
+      connection.hubs.back().push_back(hub);
+      complete = true;
+      for (const std::size_t other : order) {
+        if (connection.part[other] != none) continue;
+        if (body.connected(hub, points[other])) {
+          connection.part[other] = mine;
+          found.push_back(other);
+        } else {
+          complete = false;
+        }
+      }
+    }
+  }
+  return connection;
 }
 
 }  // namespace
@@ -62,15 +116,13 @@ void PatchTree::split(std::size_t index) {
   for (int c = 0; c < 8; ++c) {
     Leaf child;
     child.half = 0.5 * parent.half;
-    child.center =
-        parent.center + child.half * Vec3((c & 1) ? 1 : -1, (c & 2) ? 1 : -1, (c & 4) ? 1 : -1);
+    child.center = parent.center + child.half * octant(c);
     child.level = parent.level + 1;
     nodes_.push_back(std::move(child));
   }
   for (const Eigen::Index i : parent.knots) {
     const Vec3 d = surface_->positions.col(i) - parent.center;
-    nodes_[first + (d.x() > 0 ? 1 : 0) + (d.y() > 0 ? 2 : 0) + (d.z() > 0 ? 4 : 0)].knots.push_back(
-        i);
+    nodes_[first + octant_of(d)].knots.push_back(i);
   }
   nodes_[index].first_child = static_cast<int>(first);
   nodes_[index].knots = {};
@@ -102,118 +154,52 @@ bool PatchTree::touches(std::size_t node, const Vec3& center, double half) const
 }
 
 std::vector<Patch> PatchTree::parts(std::size_t index, const BodyQueries& body) const {
-  const SpreadKnots& knots = *surface_;
   const Leaf& leaf = nodes_[index];
+  if (leaf.knots.empty() && !body.inside(leaf.center)) return {};
   const double wide = leaf.half * (1.0 + 2.0 * options_.overlap);
-  std::vector<Eigen::Index> near;
-  gather(0, leaf.center, wide, near);
-  const bool empty = leaf.knots.empty() && !body.inside(leaf.center);
-  if (empty) return {};
-  const std::size_t count = near.size();
+  Patch whole;
+  whole.leaf = index;
+  whole.joints = cube_points(leaf.center, wide, options_.joints_per_edge);
+  whole.joint_area = 24.0 * wide * wide / static_cast<double>(whole.joints.size());
+  gather(0, leaf.center, wide, whole.knots);
+  if (whole.knots.empty()) {
+    whole.hubs = {leaf.center};
+    whole.center = leaf.center;
+    whole.radius = std::sqrt(3.0) * wide;
+    return {whole};
+  }
+
   // Prefixes of the knots are evenly spread: the lowest indices stand for all.
-  std::sort(near.begin(), near.end());
-  double knot_area = knots.area / static_cast<double>(knots.positions.cols());
-  if (near.size() > options_.most_knots) {
-    knot_area *= static_cast<double>(count) / static_cast<double>(options_.most_knots);
-    near.resize(options_.most_knots);
-  }
-
-  std::vector<Vec3> joints = cube_points(leaf.center, wide, options_.joints_per_edge);
-  const double joint_area = 24.0 * wide * wide / static_cast<double>(joints.size());
-  if (near.empty()) {
-    Patch patch;
-    patch.joints = std::move(joints);
-    patch.joint_area = joint_area;
-    patch.hubs = {leaf.center};
-    patch.leaf = index;
-    patch.center = leaf.center;
-    patch.radius = std::sqrt(3.0) * wide;
-    return {patch};
-  }
-
-  // A point inside for each knot: half-way to the opposite wall where the body is thin.
-  std::vector<Vec3> samples;
-  std::vector<char> core;
-  for (const Eigen::Index i : near) {
-    const Vec3 x = knots.positions.col(i), n = knots.normals.col(i);
-    const double depth = std::min(0.5 * leaf.half, 0.5 * body.thickness(x, -n));
-    samples.push_back(x - depth * n);
-    core.push_back(within(x, leaf.center, leaf.half));
-  }
-  const std::size_t from_knots = samples.size();
-  // Knots of the leaf itself that are not among the chosen ones still stand for a part.
-  for (std::size_t i = 0; i < leaf.knots.size() && i < most_hubs; ++i) {
-    const Vec3 x = knots.positions.col(leaf.knots[i]), n = knots.normals.col(leaf.knots[i]);
-    samples.push_back(x - std::min(0.5 * leaf.half, 0.5 * body.thickness(x, -n)) * n);
-    core.push_back(1);
-  }
-  const std::size_t first_joint = samples.size();
-  for (const Vec3& x : joints)
-    if (body.inside(x)) {
-      samples.push_back(x);
-      core.push_back(0);
-    }
-  const std::size_t last_joint = samples.size();
-  for (int c = 0; c < 8; ++c) {
-    const Vec3 x =
-        leaf.center + 0.5 * leaf.half * Vec3((c & 1) ? 1 : -1, (c & 2) ? 1 : -1, (c & 4) ? 1 : -1);
-    if (body.inside(x)) {
-      samples.push_back(x);
-      core.push_back(1);
-    }
-  }
-
-  std::vector<int> part(samples.size(), -1);
-  std::vector<std::vector<Vec3>> hubs;
-  int parts_found = 0;
-  std::vector<std::size_t> order(samples.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const double da = (samples[a] - leaf.center).squaredNorm();
-    const double db = (samples[b] - leaf.center).squaredNorm();
-    return da < db || (da == db && a < b);
-  });
-  for (const std::size_t seed : order) {
-    if (part[seed] >= 0) continue;
-    const int mine = parts_found++;
-    hubs.emplace_back();
-    part[seed] = mine;
-    std::vector<std::size_t> queue{seed};
-    std::size_t unassigned = 1;
-    for (std::size_t q = 0; q < queue.size() && q < most_hubs && unassigned > 0; ++q) {
-      const Vec3 hub = samples[queue[q]];
-      hubs.back().push_back(hub);
-      unassigned = 0;
-      for (const std::size_t other : order) {
-        if (part[other] >= 0) continue;
-        if (body.connected(hub, samples[other])) {
-          part[other] = mine;
-          queue.push_back(other);
-        } else {
-          ++unassigned;
-        }
-      }
-    }
-  }
+  const SpreadKnots& knots = *surface_;
+  std::sort(whole.knots.begin(), whole.knots.end());
+  const std::size_t count = std::min(whole.knots.size(), options_.most_knots);
+  whole.knot_area = knots.area / static_cast<double>(knots.positions.cols()) *
+                    static_cast<double>(whole.knots.size()) / static_cast<double>(count);
+  whole.knots.resize(count);
+  const PatchSamples samples = sample(whole, leaf, body);
+  const Connection connection = connect(samples.points, leaf.center, body);
 
   std::vector<Patch> result;
-  for (int c = 0; c < parts_found; ++c) {
-    bool belongs = false;
-    for (std::size_t i = 0; i < samples.size(); ++i) belongs |= part[i] == c && core[i] != 0;
-    if (!belongs) continue;
+  for (std::size_t c = 0; c < connection.hubs.size(); ++c) {
     Patch patch;
     patch.leaf = index;
-    patch.knot_area = knot_area;
-    patch.joint_area = joint_area;
-    patch.hubs = hubs[static_cast<std::size_t>(c)];
-    for (std::size_t i = 0; i < from_knots; ++i)
-      if (part[i] == c) patch.knots.push_back(near[i]);
-    for (std::size_t i = first_joint; i < last_joint; ++i)
-      if (part[i] == c) patch.joints.push_back(samples[i]);
+    patch.knot_area = whole.knot_area;
+    patch.joint_area = whole.joint_area;
+    patch.hubs = connection.hubs[c];
+    bool in_leaf = false;
     Eigen::AlignedBox3d box;
-    for (const Eigen::Index i : patch.knots) box.extend(Vec3(knots.positions.col(i)));
-    for (const Vec3& x : patch.joints) box.extend(x);
-    if (box.isEmpty()) continue;
+    for (std::size_t i = 0; i < samples.points.size(); ++i) {
+      if (connection.part[i] != c) continue;
+      in_leaf |= samples.in_leaf[i] != 0;
+      if (i < samples.joints_begin) {
+        patch.knots.push_back(whole.knots[i]);
+        box.extend(Vec3(knots.positions.col(whole.knots[i])));
+      } else if (i < samples.joints_end) {
+        patch.joints.push_back(samples.points[i]);
+        box.extend(samples.points[i]);
+      }
+    }
+    if (!in_leaf || box.isEmpty()) continue;
     patch.center = box.center();
     for (const Eigen::Index i : patch.knots)
       patch.radius = std::max(patch.radius, (knots.positions.col(i) - patch.center).norm());
@@ -222,6 +208,37 @@ std::vector<Patch> PatchTree::parts(std::size_t index, const BodyQueries& body) 
     if (patch.radius > 0.0) result.push_back(std::move(patch));
   }
   return result;
+}
+
+// One for each knot of `whole`, then one for each joint inside, then more of the leaf itself, so
+// that each of its parts has one.
+PatchTree::PatchSamples PatchTree::sample(const Patch& whole, const Leaf& leaf,
+                                          const BodyQueries& body) const {
+  const SpreadKnots& knots = *surface_;
+  PatchSamples samples;
+  const auto add = [&](const Vec3& x, bool in_leaf) {
+    samples.points.push_back(x);
+    samples.in_leaf.push_back(in_leaf);
+  };
+  // Under a knot, half-way to the opposite wall where the body is thin.
+  const auto under = [&](Eigen::Index i) -> Vec3 {
+    const Vec3 x = knots.positions.col(i), n = knots.normals.col(i);
+    return x - 0.5 * std::min(leaf.half, body.thickness(x, -n)) * n;
+  };
+  for (const Eigen::Index i : whole.knots)
+    add(under(i), within(knots.positions.col(i), leaf.center, leaf.half));
+  samples.joints_begin = samples.points.size();
+  for (const Vec3& x : whole.joints)
+    if (body.inside(x)) add(x, false);
+  samples.joints_end = samples.points.size();
+  // Knots of the leaf that are not among those chosen still stand for a part.
+  for (std::size_t i = 0; i < leaf.knots.size() && i < most_hubs; ++i)
+    add(under(leaf.knots[i]), true);
+  for (int c = 0; c < 8; ++c) {
+    const Vec3 x = leaf.center + 0.5 * leaf.half * octant(c);
+    if (body.inside(x)) add(x, true);
+  }
+  return samples;
 }
 
 void PatchTree::make_patches(const BodyQueries& body, const Workers& workers) {
@@ -260,8 +277,7 @@ std::size_t PatchTree::leaf_at(const Vec3& x) const {
   std::size_t at = 0;
   while (nodes_[at].first_child >= 0) {
     const Vec3 d = x - nodes_[at].center;
-    at = static_cast<std::size_t>(nodes_[at].first_child + (d.x() > 0 ? 1 : 0) +
-                                  (d.y() > 0 ? 2 : 0) + (d.z() > 0 ? 4 : 0));
+    at = static_cast<std::size_t>(nodes_[at].first_child) + octant_of(d);
   }
   return at;
 }

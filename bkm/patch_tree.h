@@ -48,7 +48,7 @@ struct PatchTreeOptions {
   // Edges of leaves, length: next to the surface, and anywhere.
   double widest_at_surface = std::numeric_limits<double>::infinity();
   double widest = std::numeric_limits<double>::infinity();
-  double overlap = 0.25;         // each side is widened by this part of the leaf's edge
+  double overlap = 0.25;        // each side is widened by this part of the leaf's edge
   int joints_per_edge = 4;      // squared: on each side of the widened cube
   std::size_t most_knots = 60;  // per patch
   int deepest = 9;              // levels below the root: edges of 1/512 of the body's size
@@ -81,6 +81,13 @@ class PatchTree {
   std::ptrdiff_t owner(const Vec3& x, const BodyQueries& body) const;
 
  private:
+  // Points inside, from which what hangs together is found.
+  struct PatchSamples {
+    std::vector<Vec3> points;
+    std::vector<char> in_leaf;  // whether each stands for the leaf itself, not for the overlap
+    std::size_t joints_begin = 0, joints_end = 0;  // before them: one for each knot
+  };
+  PatchSamples sample(const Patch& whole, const Leaf& leaf, const BodyQueries& body) const;
   std::vector<Patch> parts(std::size_t leaf, const BodyQueries& body) const;
   bool touches(std::size_t node, const Vec3& center, double half) const;
   void gather(std::size_t node, const Vec3& center, double half,

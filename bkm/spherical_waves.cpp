@@ -6,7 +6,7 @@
 namespace knotlight {
 namespace {
 
-// s_l(t) = (2l+1)!! i_l(x) / x^l with t = x^2/2 [DLMF 10.53.3 for the modified functions]:
+// s_l(t) = (2l+1)!! i_l(x) / x^l with t = x^2/2 [AS64 10.2.5]:
 //   s_l = sum_j t^j / (j! (2l+3)(2l+5)...(2l+2j+1)),   ds_l/dt = s_(l+1) / (2l+3).
 // All terms are positive: no digits are lost at any t.
 double reduced_bessel(int l, double t) {

@@ -12,6 +12,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "core/errors.h"
 #include "scene/mesh_repair.h"
@@ -35,20 +36,34 @@ void check_file(const std::string& path) {
   if (!error && size == 0) refuse(path, "is empty, expected a mesh");
 }
 
-// The PLY reader never comes back from a header without an end.
-void check_ply_header(const std::string& path) {
-  constexpr std::size_t longest_header = 1 << 16;  // some 1000 lines; real ones have about 10
+bool is_ply(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".ply") return;
+  return extension == ".ply";
+}
+
+// assimp's reader never comes back from a PLY header without an end, and takes line breaks that
+// binary data happen to start with for more of the header. Returns the file with an edge, which it leaves out, of one
+// harmless byte before its data if they start so, and nothing if assimp can read it as it is.
+std::string check_ply(const std::string& path) {
+  constexpr std::size_t longest_header = 1 << 16;  // some 1000 lines; real ones have about 10
   std::ifstream file(path, std::ios::binary);
-  std::string line;
-  for (std::size_t read = 0; read < longest_header && std::getline(file, line);
-       read += line.size() + 1) {
-    line.erase(line.find_last_not_of(" \t\r") + 1);
-    if (line == "end_header") return;
+  std::string header, line, before_elements;
+  bool is_binary = false, has_end = false;
+  while (!has_end && header.size() < longest_header && std::getline(file, line)) {
+    std::string words = line;
+    words.erase(words.find_last_not_of(" \t\r") + 1);
+    has_end = words == "end_header";
+    is_binary = is_binary || words.rfind("format binary", 0) == 0;
+    if (before_elements.empty() && words.rfind("element ", 0) == 0) before_elements = header;
+    header += line + "\n";
   }
-  refuse(path, "cannot be read: the PLY header has no end_header");
+  if (!has_end) refuse(path, "cannot be read: the PLY header has no end_header");
+  const int first = file.peek();
+  if (!is_binary || before_elements.empty() || (first != '\n' && first != '\r')) return {};
+  const std::string data{std::istreambuf_iterator<char>(file), {}};
+  return before_elements + "element edge 1\nproperty uchar unused\n" +
+         header.substr(before_elements.size()) + '\0' + data;
 }
 
 // A face without corners makes assimp take its mesh for one of polygons, and stop the program when
@@ -92,12 +107,15 @@ void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& pa
 
 TriangleMesh read_mesh(const std::string& path) {
   check_file(path);
-  check_ply_header(path);
+  const std::string mended = is_ply(path) ? check_ply(path) : std::string();
   TriangleMesh mesh;
   try {
     Assimp::Importer importer;
     // Validation comes first, so that no index of a broken file leads out of its array.
-    const aiScene* scene = importer.ReadFile(path, aiProcess_ValidateDataStructure);
+    const unsigned steps = aiProcess_ValidateDataStructure;
+    const aiScene* scene =
+        mended.empty() ? importer.ReadFile(path, steps)
+                       : importer.ReadFileFromMemory(mended.data(), mended.size(), steps, "ply");
     if (scene != nullptr) {
       check_faces(path, *scene);
       scene = importer.ApplyPostProcessing(aiProcess_Triangulate);

@@ -82,6 +82,49 @@ TEST(ReadMesh, EveryFormatGivesTheSameSolid) {
   check(".stl", test::as_binary_stl(sphere));
 }
 
+// Little-endian, single precision, lines of the header ended as given. Of the first coordinate the
+// last byte of the mantissa, which comes first in the file, is `first`.
+std::string as_binary_ply(const TriangleMesh& mesh, const std::string& line_end,
+                          std::uint8_t first) {
+  std::string text;
+  for (const std::string& line :
+       {std::string("ply"), std::string("format binary_little_endian 1.0"),
+        fmt::format("element vertex {}", mesh.vertices.size()), std::string("property float x"),
+        std::string("property float y"), std::string("property float z"),
+        fmt::format("element face {}", mesh.triangles.size()),
+        std::string("property list uchar int vertex_indices"), std::string("end_header")})
+    text += line + line_end;
+  const std::size_t data = text.size();
+  const auto put = [&text](const auto& value) {
+    text.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  for (const Vec3& v : mesh.vertices)
+    for (const double x : v) put(static_cast<float>(x));
+  for (const Triangle& t : mesh.triangles) {
+    put(std::uint8_t{3});
+    for (const std::uint32_t v : t) put(v);
+  }
+  text[data] = static_cast<char>(first);
+  return text;
+}
+
+// A line feed or carriage return as first byte of the data is no line end of the header.
+TEST(ReadMesh, BinaryPlyWhateverItsFirstByte) {
+  const TriangleMesh sphere = icosphere(1, {0.3, -0.2, 5.0});
+  constexpr double last_byte = 1e-5;  // a byte of the mantissa: 256 roundings of the coordinate
+  for (const char* line_end : {"\n", "\r\n"})
+    for (int first = 0; first < 256; ++first) {
+      const TemporaryFile file(".ply",
+                               as_binary_ply(sphere, line_end, static_cast<std::uint8_t>(first)));
+      TriangleMesh mesh;
+      ASSERT_NO_THROW(mesh = read_mesh(file.path())) << first;
+      ASSERT_EQ(mesh.vertices.size(), sphere.vertices.size()) << first;
+      EXPECT_EQ(mesh.triangles, sphere.triangles) << first;
+      for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        EXPECT_LT((mesh.vertices[i] - sphere.vertices[i]).norm(), last_byte) << first;
+    }
+}
+
 TEST(ReadMesh, TriangulatesPolygonsAndIgnoresLinesAndPoints) {
   const TemporaryFile file(".obj",
                            "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 3 0\nv 0 1 0\nv 7 7 7\n"
