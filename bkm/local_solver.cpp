@@ -9,40 +9,53 @@ namespace {
 
 constexpr std::size_t patches_per_chunk = 32;
 
-// BiCGSTAB [vdV92] for x - C x = d, C applied by a function.
 struct IterationResult {
   Eigen::VectorXd x;
   int iterations = 0;
-  double residual = 0.0;
+  double residual = 0.0;  // relative
 };
 
-IterationResult solve_fixed_point(
-    const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, const Eigen::VectorXd& d,
-    double tolerance, int most) {
-  IterationResult result;
-  result.x = Eigen::VectorXd::Zero(d.size());
+using LinearMap = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+
+// BiCGSTAB [vdV92] for x - C x = d, begun anew from the true residual after so many steps, or where
+// it breaks down: its short recurrence forgets, and the residual it carries along drifts away.
+constexpr int steps_before_restart = 60;
+
+IterationResult solve_fixed_point(const LinearMap& C, const Eigen::VectorXd& d, double tolerance,
+                                  int most) {
+  IterationResult result{Eigen::VectorXd::Zero(d.size())};
   const double norm = d.norm();
   if (norm == 0.0) return result;
-  Eigen::VectorXd r = d, shadow = d, p = Eigen::VectorXd::Zero(d.size()), v = p;
-  double rho = 1.0, alpha = 1.0, omega = 1.0;
+  Eigen::VectorXd best = result.x;
+  double best_residual = 1.0;
   while (result.iterations < most) {
-    const double rho_new = shadow.dot(r);
-    if (rho_new == 0.0) break;
-    const double beta = rho_new / rho * alpha / omega;
-    rho = rho_new;
-    p = r + beta * (p - omega * v);
-    v = p - apply(p);
-    alpha = rho / shadow.dot(v);
-    const Eigen::VectorXd s = r - alpha * v;
-    const Eigen::VectorXd t = s - apply(s);
-    const double tt = t.squaredNorm();
-    omega = tt > 0.0 ? t.dot(s) / tt : 0.0;
-    result.x += alpha * p + omega * s;
-    r = s - omega * t;
-    ++result.iterations;
+    Eigen::VectorXd r = d - result.x + C(result.x);
     result.residual = r.norm() / norm;
-    if (!(result.residual > tolerance) || omega == 0.0) break;
+    if (result.residual < best_residual) best = result.x, best_residual = result.residual;
+    if (!(result.residual > tolerance)) break;
+    const Eigen::VectorXd shadow = r;
+    Eigen::VectorXd p = Eigen::VectorXd::Zero(d.size()), v = p;
+    double rho = 1.0, alpha = 1.0, omega = 1.0;
+    for (int step = 0; step < steps_before_restart; ++step) {
+      const double rho_new = shadow.dot(r);
+      if (rho_new == 0.0) break;
+      p = r + rho_new / rho * alpha / omega * (p - omega * v);
+      rho = rho_new;
+      v = p - C(p);
+      alpha = rho / shadow.dot(v);
+      const Eigen::VectorXd s = r - alpha * v;
+      const Eigen::VectorXd t = s - C(s);
+      const double tt = t.squaredNorm();
+      omega = tt > 0.0 ? t.dot(s) / tt : 0.0;
+      result.x += alpha * p + omega * s;
+      r = s - omega * t;
+      ++result.iterations;
+      if (!(r.norm() > tolerance * norm) || omega == 0.0) break;
+    }
+    if (!result.x.allFinite()) break;
   }
+  result.x = best;
+  result.residual = best_residual;
   return result;
 }
 

@@ -254,8 +254,13 @@ void PatchTree::make_patches(const BodyQueries& body, const Workers& workers) {
       for (std::size_t i = begin; i < end; ++i) found[i] = parts(leaves[i], body);
     });
     std::vector<std::size_t> again;
+    std::size_t in_all = patches_.size();
+    for (const std::vector<Patch>& parts_found : found) in_all += parts_found.size();
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      if (found[i].size() > 1 && can_split(leaves[i])) {
+      // Each of eight children may hold as many parts; where they are too many, a leaf keeps
+      // several.
+      if (found[i].size() > 1 && can_split(leaves[i]) &&
+          in_all + 8 * (again.size() + 1) < options_.most_patches) {
         again.push_back(leaves[i]);
         continue;
       }

@@ -48,10 +48,11 @@ struct PatchTreeOptions {
   // Edges of leaves, length: next to the surface, and anywhere.
   double widest_at_surface = std::numeric_limits<double>::infinity();
   double widest = std::numeric_limits<double>::infinity();
-  double overlap = 0.25;        // each side is widened by this part of the leaf's edge
-  int joints_per_edge = 4;      // squared: on each side of the widened cube
-  std::size_t most_knots = 60;  // per patch
-  int deepest = 9;              // levels below the root: edges of 1/512 of the body's size
+  double overlap = 0.25;              // each side is widened by this part of the leaf's edge
+  int joints_per_edge = 4;            // squared: on each side of the widened cube
+  std::size_t most_knots = 60;        // per patch
+  std::size_t most_patches = 12'000;  // leaves with several parts are split no further beyond
+  int deepest = 9;                    // levels below the root: edges of 1/512 of the body's size
 };
 
 class PatchTree {

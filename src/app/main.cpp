@@ -19,6 +19,8 @@
 #include "pipeline/report_json.h"
 #include "pipeline/run_options.h"
 #include "scene/nearest_name.h"
+#include "stability/report.h"
+#include "stability/stability.h"
 #include "validate/report.h"
 #include "validate/validate.h"
 
@@ -32,6 +34,7 @@ struct CommandLine {
   bool json_wanted = false;
   CompareOptions compare;
   ValidateOptions validate;
+  StabilityOptions stability;
   RunOptions options;
 };
 
@@ -133,6 +136,16 @@ int validate_program(const CommandLine& line, RunContext& run) {
   return validation.failed() == 0 ? exit_ok : exit_failure;
 }
 
+int map_stability(const CommandLine& line, RunContext& run) {
+  make_output_folder(line.output);
+  const Stability found = stability(line.stability, run);
+  write_stability(found, line.output);
+  if (!line.options.quiet)
+    fmt::print("{}{}\n", stability_text(found),
+               (std::filesystem::path(line.output) / "stability.html").string());
+  return found.broken() == 0 ? exit_ok : exit_failure;
+}
+
 // Ctrl-C ends the program at once: files appear by renaming, so only a pending temporary has to go.
 extern "C" void on_interrupt(int) {
   remove_pending_file();
@@ -179,6 +192,13 @@ int run_program(int argc, char** argv) {
   validate_command.add_option("--only", line.validate.only, "the cases whose name contains this");
   validate_command.add_flag("--quick", line.validate.quick,
                             "the few small cases that together see every factor; seconds");
+  CLI::App& stability_command = *app.add_subcommand(
+      "stability",
+      "maps of where each method fails; exit code 1 if one crashes, hangs, or is wrong unnoticed");
+  add_run_options(stability_command, line);
+  stability_command.add_option("-o,--output", line.output, "folder to write to")->required();
+  stability_command.add_flag("--quick", line.stability.quick,
+                             "a few cells of each map and two scenes; seconds");
   for (CLI::App* command : {&render_command, &probe_command, &compare_command, &validate_command})
     command->add_option("--json", line.options.json, "write a summary to this file");
   CLI::Option* info_json =
@@ -188,7 +208,8 @@ int run_program(int argc, char** argv) {
                       "standard output if none is named")
           ->expected(0, 1);
 
-  const std::vector<std::string> names = {"render", "probe", "compare", "validate", "info"};
+  const std::vector<std::string> names = {"render",   "probe",     "compare",
+                                          "validate", "stability", "info"};
   if (argc < 2)
     throw InputError(
         fmt::format("no command given, expected {} (see knotlight --help)", one_of(names)));
@@ -213,6 +234,7 @@ int run_program(int argc, char** argv) {
   if (probe_command.parsed()) return probe(line, run);
   if (compare_command.parsed()) return compare(line, run);
   if (validate_command.parsed()) return validate_program(line, run);
+  if (stability_command.parsed()) return map_stability(line, run);
   return info(line, run);
 }
 

@@ -12,10 +12,12 @@ struct GridErrorEstimate {
 };
 
 // fine: cells of size h; coarse: 2 h, the same sources. Points on the surface (3 x N) with outward
-// normals. For order p the error of the fine solution is |u_h - u_2h| / (2^p - 1); p = 1.5 is
-// taken, a little below the observed 2, since cells that are cut differently on the two grids leave
-// an irregular part. NaN values give NaN.
+// normals. For order p the error of the fine solution is |u_h - u_2h| / (2^p - 1); p = 1.3 is
+// taken, below the 2 of smooth fields, since cells that are cut differently on the two grids leave
+// an irregular part, and less where cells are large beside the length 1/lambda over which light
+// decays (cell_in_decay_lengths = lambda h). NaN values give NaN.
 GridErrorEstimate estimate_error(const GridField& fine, const GridField& coarse,
-                                 const Points& points, const Points& normals);
+                                 const Points& points, const Points& normals,
+                                 double cell_in_decay_lengths);
 
 }  // namespace knotlight

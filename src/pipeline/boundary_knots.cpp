@@ -59,9 +59,9 @@ BoundaryData boundary_data(const ChannelProblem& p, const ParticularSolution& pa
                            const Points& positions, const Points& normals, std::uint64_t seed) {
   const ParticularValues up = particular.evaluate(positions, &normals, p.workers);
   BoundaryData data;
-  data.error_bound = up.error_bound;
   for (std::size_t half = 0; half < 2; ++half) {
-    data.g[half] = -(up.value[half] + p.coefficients.k * up.normal_derivative[half]);
+    data.g[half] =
+        up.surface_data[half] - (up.value[half] + p.coefficients.k * up.normal_derivative[half]);
     if (p.light.model != SourceModel::boundary_flux) continue;
     p.workers.for_chunks(
         static_cast<std::size_t>(positions.cols()), knots_per_chunk,

@@ -22,7 +22,6 @@ BodyQueries body_queries(const ChannelProblem& problem);
 // one, for each half of the light, at points with outward normals (3 x N).
 struct BoundaryData {
   std::array<Eigen::VectorXd, 2> g;
-  double error_bound = 0.0;  // of the tree code
 };
 BoundaryData boundary_data(const ChannelProblem& problem, const ParticularSolution& particular,
                            const Points& positions, const Points& normals, std::uint64_t seed);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/residual_effect.h"
+
 namespace knotlight {
 namespace {
 
@@ -10,12 +12,31 @@ constexpr std::size_t check_points = 2048;  // the rms of a residual to 2 %, on 
 constexpr std::size_t points_per_chunk = 64;
 
 // Charges are spread over balls whose bias is this share of the tolerance: 0.35 (radius sigma_t)^2
-// of U_d on spheres of 5 to 50 mean free paths (docs/results/photon-sum.md).
+// of U_d on spheres of 5 to 50 mean free paths (docs/results/boundary-methods.md), and 0.85 (radius
+// / R)^2 on balls of radius R smaller than a mean free path (docs/results/stability.md).
 constexpr double smoothing_share = 0.1;
 constexpr double smoothing_bias = 0.35;
+constexpr double small_body_bias = 0.85;
+// The right-hand side of layers on the surface (flights' ends, g != 0) is known to so much of it:
+// 0.4 % to 1.3 % on balls of 20 to 60 mean free paths. The field is off by as much at the most.
+constexpr double layers_unknown = 0.01;
+// Ends of flights are raised out of the body, by two mean distances between them or by k/2 at most
+// (photon_sources.cpp); balls about them that reached into it would be sources there. Half of that.
+constexpr double clear_of_ends = 1.0;
+constexpr double clear_of_ends_in_k = 0.25;
 // The difference of two halves is itself a random number, and what is wanted is a bound that holds
 // nearly always: 1.3 standard deviations of an rms over hundreds of independent places.
 constexpr double noise_factor = 1.3;
+
+// What a residual does to the field is known next to a plane; thin limbs smooth it less: by a
+// quarter on bunny and knot.
+constexpr double thin_limb_factor = 1.25;
+
+// Bias by balls of radius 1, 1/length^2.
+double smoothing_bias_of(const ChannelProblem& p) {
+  const double R = 3.0 * volume(p.shape) / surface_area(p.shape);  // of a ball
+  return smoothing_bias * p.medium.sigma_t() * p.medium.sigma_t() + small_body_bias / (R * R);
+}
 
 }  // namespace
 
@@ -51,6 +72,13 @@ BoundaryVerdict judge_boundary(const ChannelProblem& p, const BoundaryChecks& ch
   // Noise of the halves is independent and drops out of the mean product.
   const double common = std::abs(residual[0].dot(residual[1])) / static_cast<double>(n);
   verdict.robin_residual = relative(std::sqrt(common), verdict.scale);
+  const double effect =
+      std::sqrt(mean_square_effect(checks.at.positions, residual, p.coefficients.k, p.workers));
+  verdict.solver_error =
+      std::min(verdict.robin_residual, thin_limb_factor * relative(effect, verdict.scale));
+  const Eigen::VectorXd layers =
+      0.5 * (checks.particular.surface_data[0] + checks.particular.surface_data[1]);
+  verdict.solver_error += layers_unknown * relative(root_mean_square(layers), verdict.scale);
   verdict.largest_residual =
       relative(0.5 * (residual[0] + residual[1]).cwiseAbs().maxCoeff(), verdict.scale);
   return verdict;
@@ -59,8 +87,13 @@ BoundaryVerdict judge_boundary(const ChannelProblem& p, const BoundaryChecks& ch
 PhotonSumOptions particular_options(const ChannelProblem& p) {
   PhotonSumOptions options;
   const double share = smoothing_share * p.settings.tolerance;
-  options.softening = std::sqrt(share / smoothing_bias) / p.medium.sigma_t();
-  if (getenv("KL_SOFT")) options.softening = atof(getenv("KL_SOFT")) / p.medium.sigma_t();
+  options.softening = std::sqrt(share / smoothing_bias_of(p));
+  for (const IncidentHalf& half : p.light.halves) {
+    if (half.ends.empty()) continue;
+    const double between = std::sqrt(surface_area(p.shape) / static_cast<double>(half.ends.size()));
+    options.softening = std::min(
+        {options.softening, clear_of_ends * between, clear_of_ends_in_k * p.coefficients.k});
+  }
   return options;
 }
 
@@ -68,7 +101,8 @@ ChannelSolution boundary_solution(const ChannelProblem& p,
                                   std::shared_ptr<const ParticularSolution> particular,
                                   const BoundaryVerdict& verdict, HomogeneousPart mean) {
   ChannelSolution solution;
-  solution.numerical_error = verdict.robin_residual + smoothing_share * p.settings.tolerance;
+  const double radius = particular_options(p).softening;
+  solution.numerical_error = verdict.solver_error + smoothing_bias_of(p) * radius * radius;
   solution.noise = noise_factor * verdict.noise;
   solution.solved = std::isfinite(verdict.scale);
   if (!solution.solved) solution.failures.push_back("the solution has values that are not finite");

@@ -30,6 +30,7 @@ struct BoundaryVerdict {
   double scale = 0.0;             // rms of U_d over the surface
   double noise = 0.0;             // of U_d there, rms, by the two halves, over scale
   double robin_residual = 0.0;    // rms of what both halves leave in common, over scale
+  double solver_error = 0.0;      // rms that it leaves in U_d (residual_effect.h), over scale
   double largest_residual = 0.0;  // of the mean of both, noise included, over scale
 };
 BoundaryVerdict judge_boundary(const ChannelProblem& problem, const BoundaryChecks& checks,

@@ -38,10 +38,20 @@ ParticularSolution::ParticularSolution(const ChannelProblem& p, const PhotonSumO
     : lambda_(p.coefficients.lambda),
       emitted_(p.coefficients.source_per_E * p.medium.emission),
       center_(sphere_around({&p.shape}).center),
-      radius_(sphere_around({&p.shape}).radius) {
-  for (int half = 0; half < 2; ++half)
-    sums_[static_cast<std::size_t>(half)] = std::make_unique<const PhotonSum>(
-        photon_sources(p, half), lambda_, p.coefficients.k, options, p.workers);
+      radius_(sphere_around({&p.shape}).radius),
+      k_(p.coefficients.k) {
+  for (std::size_t half = 0; half < 2; ++half) {
+    PointSources sources = photon_sources(p, static_cast<int>(half));
+    SurfaceLayers layers = surface_layers(sources, lambda_);
+    if (layers.charges.size() > 0) {
+      layer_charges_[half] = std::make_unique<const PhotonSum>(std::move(layers.charges), lambda_,
+                                                               k_, PhotonSumOptions{}, p.workers);
+      layer_dipoles_[half] = std::make_unique<const PhotonSum>(std::move(layers.dipoles), lambda_,
+                                                               k_, PhotonSumOptions{}, p.workers);
+    }
+    sums_[half] =
+        std::make_unique<const PhotonSum>(std::move(sources), lambda_, k_, options, p.workers);
+  }
 }
 
 ParticularValues ParticularSolution::evaluate(const Points& x, const Points* normals,
@@ -51,7 +61,13 @@ ParticularValues ParticularSolution::evaluate(const Points& x, const Points* nor
     PhotonSumValues sum = sums_[half]->evaluate(x, normals, workers);
     result.value[half] = std::move(sum.value);
     result.normal_derivative[half] = std::move(sum.normal_derivative);
-    result.error_bound = std::max(result.error_bound, sum.error_bound);
+    result.error_estimate = std::max(result.error_estimate, sum.error_estimate);
+    if (normals == nullptr) continue;
+    result.surface_data[half] = Eigen::VectorXd::Zero(x.cols());
+    if (layer_charges_[half])
+      result.surface_data[half] =
+          k_ * (layer_charges_[half]->evaluate(x, normals, workers).normal_derivative +
+                layer_dipoles_[half]->evaluate(x, nullptr, workers).value);
   }
   if (emitted_ == 0.0) return result;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {

@@ -15,7 +15,10 @@ namespace knotlight {
 struct ParticularValues {
   std::array<Eigen::VectorXd, 2> value;
   std::array<Eigen::VectorXd, 2> normal_derivative;  // per length; empty without normals
-  double error_bound = 0.0;                          // of any value, by the tree code
+  // Right-hand side of the Robin condition that belongs to sources on the surface (flights' ends, g
+  // != 0), W/(length^2 sr); empty without normals.
+  std::array<Eigen::VectorXd, 2> surface_data;
+  double error_estimate = 0.0;  // of any value, by the tree code
 };
 
 class ParticularSolution {
@@ -31,7 +34,10 @@ class ParticularSolution {
   double emitted_;  // f of the object's own emission, W/(length^4 sr), 0 or negative
   Vec3 center_;     // and radius of a ball that holds the object
   double radius_;
+  double k_;
   std::array<std::unique_ptr<const PhotonSum>, 2> sums_;
+  // Null where nothing lies on the surface.
+  std::array<std::unique_ptr<const PhotonSum>, 2> layer_charges_, layer_dipoles_;
 };
 
 }  // namespace knotlight

@@ -22,6 +22,8 @@ constexpr std::size_t charges_per_chunk = 1024;  // about a millisecond of searc
 // they are spread by at most half of k, they are an even layer.
 constexpr double end_spread = 2.0;
 constexpr double widest_end = 0.5;
+// With less room above the surface than this part of that height the layer would be spikes.
+constexpr double least_room = 0.25;
 
 // The two charges of a dipole are this far apart, in mean free paths, or as far as the surface is
 // away, if that is less: by Taylor's series it changes the source by a share of 0.25^2/24, 0.3 %.
@@ -103,14 +105,56 @@ void order_by_place(std::vector<Charge>& charges, const Shape& shape) {
 }
 
 // A flight's end to the height above its plane at which it stands for a layer there. Where there is
-// no room for that it stays on the surface, with its mirror charge at the same place.
+// no room for that it stands as far below the surface instead, as a charge like any other.
 void raise_end(Charge& end, const TangentPlane& plane, double clear, double lambda) {
+  if (clear < least_room * end.height) {
+    end.position = plane.point - end.height * plane.normal;
+    return;
+  }
   end.height = std::min(end.height, clear);
   end.position = plane.point + end.height * plane.normal;
   end.strength *= std::exp(lambda * end.height);
 }
 
+// Above its plane; negative below.
+double height_of(const PointSources& sources, Eigen::Index i) {
+  return (sources.positions.col(i) - sources.plane_points.col(i)).dot(sources.plane_normals.col(i));
+}
+
 }  // namespace
+
+SurfaceLayers surface_layers(const PointSources& sources, double lambda) {
+  std::vector<Eigen::Index> raised;
+  for (Eigen::Index i = 0; i < sources.size(); ++i)
+    if (height_of(sources, i) > 0.0 && sources.clear_heights[i] >= 0.0) raised.push_back(i);
+  const auto n = static_cast<Eigen::Index>(raised.size());
+  SurfaceLayers layers;
+  for (PointSources* part : {&layers.charges, &layers.dipoles}) {
+    const Eigen::Index count = part == &layers.charges ? n : 2 * n;
+    part->positions.resize(3, count);
+    part->strengths.resize(count);
+    part->plane_points = Points::Zero(3, count);
+    part->plane_normals = Vec3::UnitZ().replicate(1, count);
+    part->clear_heights = Eigen::VectorXd::Constant(count, -1.0);
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index from = raised[static_cast<std::size_t>(i)];
+    const Vec3 y = sources.positions.col(from);
+    const double arm = 0.5 * height_of(sources, from);
+    layers.charges.positions.col(i) = y;
+    layers.charges.strengths[i] = sources.strengths[from];
+    // Over a plane, exp(-lambda z)/(2 lambda) at z = h -+ arm: their difference has the factor
+    // sinh(lambda arm)/(lambda arm), which is taken out again.
+    const double x = lambda * arm;
+    const double pole = sources.strengths[from] / (2.0 * arm) * (x > 0.0 ? x / std::sinh(x) : 1.0);
+    for (const int sign : {-1, 1}) {
+      const Eigen::Index column = 2 * i + (sign + 1) / 2;
+      layers.dipoles.positions.col(column) = y + sign * arm * sources.plane_normals.col(from);
+      layers.dipoles.strengths[column] = -sign * pole;
+    }
+  }
+  return layers;
+}
 
 PointSources photon_sources(const ChannelProblem& p, int half) {
   const double k = p.coefficients.k;
@@ -133,20 +177,23 @@ PointSources photon_sources(const ChannelProblem& p, int half) {
   sources.plane_points.resize(3, n);
   sources.plane_normals.resize(3, n);
   sources.clear_heights.resize(n);
-  p.workers.for_chunks(charges.size(), charges_per_chunk,
-                       [&](std::size_t, std::size_t begin, std::size_t end) {
-                         for (std::size_t i = begin; i < end; ++i) {
-                           const auto column = static_cast<Eigen::Index>(i);
-                           const bool is_end = charges[i].height > 0.0;
-                           if (is_end)
-                             raise_end(charges[i], nearest[i], clear[i], p.coefficients.lambda);
-                           sources.positions.col(column) = charges[i].position;
-                           sources.strengths[column] = charges[i].strength;
-                           sources.plane_points.col(column) = nearest[i].point;
-                           sources.plane_normals.col(column) = nearest[i].normal;
-                           sources.clear_heights[column] = clear[i];
-                         }
-                       });
+  p.workers.for_chunks(
+      charges.size(), charges_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto column = static_cast<Eigen::Index>(i);
+          const bool is_end = charges[i].height > 0.0;
+          if (is_end) raise_end(charges[i], nearest[i], clear[i], p.coefficients.lambda);
+          sources.positions.col(column) = charges[i].position;
+          sources.strengths[column] = charges[i].strength;
+          sources.plane_points.col(column) = nearest[i].point;
+          sources.plane_normals.col(column) = nearest[i].normal;
+          // A charge inside that a rounded-off normal sees above its plane
+          // has no image; only ends of flights stand there by intent.
+          const bool askew =
+              !is_end && (charges[i].position - nearest[i].point).dot(nearest[i].normal) > 0.0;
+          sources.clear_heights[column] = askew ? -1.0 : clear[i];
+        }
+      });
   return sources;
 }
 

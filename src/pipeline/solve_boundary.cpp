@@ -1,18 +1,44 @@
 #include "pipeline/solve_boundary.h"
 
 #include "pipeline/solve_global.h"
+#include "pipeline/solve_grid.h"
 #include "pipeline/solve_lbkm.h"
 
 namespace knotlight {
+namespace {
 
-ChannelSolution solve_by_boundary(const ChannelProblem& problem) {
-  ChannelSolution global = solve_by_bkm(problem);
-  const double tolerance = problem.settings.tolerance;
-  if (global.numerical_error <= 0.5 * tolerance) return global;
-  ChannelSolution local = solve_by_lbkm(problem);
-  const bool better = local.failures.size() <= global.failures.size() &&
-                      local.numerical_error + local.noise < global.numerical_error + global.noise;
-  return better ? std::move(local) : std::move(global);
+// bkm will do if it leaves no more than this of the tolerance: noise takes the rest.
+constexpr double residual_share = 0.5;
+// Beyond so many tolerances the run would not be trusted: the grid, its cells larger than wanted,
+// may still do better.
+constexpr double tolerances_accepted = 3.0;
+
+double estimate(const ChannelSolution& s) {
+  return s.numerical_error + s.noise;
+}
+
+// The better of two: one that could do what it should, then the smaller estimate. Not-a-number
+// loses.
+ChannelSolution better(ChannelSolution a, ChannelSolution b) {
+  if (a.solved != b.solved) return a.solved ? std::move(a) : std::move(b);
+  if (a.failures.size() != b.failures.size())
+    return a.failures.size() < b.failures.size() ? std::move(a) : std::move(b);
+  return estimate(b) < estimate(a) ? std::move(b) : std::move(a);
+}
+
+}  // namespace
+
+ChannelSolution solve_by_boundary(const ChannelProblem& p) {
+  ChannelSolution best = solve_by_bkm(p);
+  const double tolerance = p.settings.tolerance;
+  if (best.numerical_error > residual_share * tolerance)
+    best = better(std::move(best), solve_by_lbkm(p));
+  if (estimate(best) <= tolerances_accepted * tolerance && best.failures.empty()) return best;
+  const ObjectGrids grids =
+      make_grids(p.scene.objects[p.object], p.scene.channels, p.settings, p.workers);
+  ChannelProblem on_grid = p;
+  on_grid.grids = &grids;
+  return better(std::move(best), solve_by_grid(on_grid));
 }
 
 }  // namespace knotlight

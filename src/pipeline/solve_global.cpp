@@ -1,7 +1,5 @@
 #include "pipeline/solve_global.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +19,8 @@ constexpr double cut = 1e-12;
 // (docs/results/stability.md).
 constexpr double source_distance = 3.0;
 constexpr double misfit_allowed = 0.5;  // of the tolerance
+// A system made for one light is taken for the next if it leaves no more of it than this.
+constexpr double as_good_as_before = 1.2;
 constexpr double worth_doubling =
     0.7;  // the residual must fall to this for knots to be doubled again
 
@@ -30,24 +30,29 @@ HomogeneousPart part(const GlobalField& field, double k) {
 }
 
 // Where the sources go: outwards from the surface, but not so far that they come near another part
-// of it: no nearer than half of their own distance.
+// of it: no nearer than half of their own distance. Where there is no such place, there is no
+// source.
 Points sources_outside(const Points& positions, const Points& normals, double distance,
                        const ChannelProblem& p) {
   constexpr double keep_clear = 0.5;
   constexpr int most_halvings = 8;
   Points sources(3, positions.cols());
+  Eigen::Index found = 0;
   for (Eigen::Index i = 0; i < positions.cols(); ++i) {
     const Vec3 x = positions.col(i), n = normals.col(i);
-    double d = distance;
+    // Not through an opposite wall.
+    const auto wall = p.caster.nearest({x, n, 2.0 * distance}, p.object);
+    double d = wall ? std::min(distance, keep_clear * wall->t) : distance;
     for (int tries = 0; tries < most_halvings; ++tries, d *= 0.5) {
       const Vec3 y = x + d * n;
       if (p.caster.inside(y, p.object)) continue;
-      if ((p.caster.nearest_surface_point(y, p.object).position - y).norm() >= keep_clear * d)
+      if ((p.caster.nearest_surface_point(y, p.object).position - y).norm() >= keep_clear * d) {
+        sources.col(found++) = y;
         break;
+      }
     }
-    sources.col(i) = x + d * n;
   }
-  return sources;
+  return sources.leftCols(found);
 }
 
 Method method_of(GlobalBasis basis) {
@@ -60,11 +65,15 @@ struct GlobalFactors {
   GlobalBkmSolver solver;
 };
 
-// The system with so many knots, factored now or by an earlier light.
-std::shared_ptr<const GlobalFactors> kept_factors(const ChannelProblem& p, GlobalBasis basis,
-                                                  std::size_t count) {
-  const FactorCache::Key key = p.factor_key(method_of(basis));
-  if (auto kept = p.factors.find<GlobalFactors>(key); kept && kept->count == count) return kept;
+using SharedFactors = std::shared_ptr<const GlobalFactors>;
+
+// What an earlier light needed, and what it left then.
+struct KeptFactors {
+  SharedFactors factors;
+  double residual;
+};
+
+SharedFactors factor(const ChannelProblem& p, GlobalBasis basis, std::size_t count) {
   SpreadKnots knots = spread_surface_knots(p.shape, rows_per_knot * count, p.seed);
   const auto n = static_cast<Eigen::Index>(count);
   GlobalBkmProblem problem{p.coefficients.lambda, p.coefficients.k, knots.positions.leftCols(n),
@@ -72,57 +81,75 @@ std::shared_ptr<const GlobalFactors> kept_factors(const ChannelProblem& p, Globa
   if (basis == GlobalBasis::exterior_sources)
     problem.centers = sources_outside(problem.centers, knots.normals.leftCols(n),
                                       source_distance * mean_knot_spacing(knots.area, count), p);
-  auto factors = std::make_shared<const GlobalFactors>(
+  return std::make_shared<const GlobalFactors>(
       GlobalFactors{count, std::move(knots),
                     GlobalBkmSolver(std::move(problem), basis,
                                     p.settings.thesis.svd_cut.value_or(cut), p.workers)});
-  p.factors.put(key, factors);
-  return factors;
+}
+
+// One number of knots tried.
+struct Round {
+  ChannelSolution solution;
+  double residual;
+};
+
+Round solve_on(const GlobalFactors& factors, GlobalBasis basis, const BoundaryChecks& checks,
+               const std::shared_ptr<const ParticularSolution>& particular,
+               const ChannelProblem& p) {
+  const GlobalBkmSolver& solver = factors.solver;
+  const double k = p.coefficients.k;
+  const BoundaryData data =
+      boundary_data(p, *particular, factors.knots.positions, factors.knots.normals, p.seed);
+  const GlobalField halves[2] = {solver.solve(data.g[0]), solver.solve(data.g[1])};
+  const BoundaryVerdict verdict =
+      judge_boundary(p, checks, {part(halves[0], k), part(halves[1], k)});
+  const GlobalField mean(basis, p.coefficients.lambda, solver.problem().centers,
+                         0.5 * (halves[0].coefficients() + halves[1].coefficients()));
+  Round round{boundary_solution(p, particular, verdict, part(mean, k)), verdict.robin_residual};
+  round.solution.method = method_of(basis);
+  round.solution.figures.insert(
+      round.solution.figures.end(),
+      {{"boundary_knots", static_cast<double>(factors.count)},
+       {"homogeneous_rank", static_cast<double>(solver.rank())},
+       {"homogeneous_condition", solver.condition()},
+       {"largest_coefficient",
+        relative(mean.coefficients().cwiseAbs().maxCoeff(), verdict.scale)}});
+  if (solver.rank() == 0)
+    round.solution.failures.push_back(
+        "no basis function reaches the surface in double precision: the object is too many "
+        "absorption lengths wide");
+  return round;
 }
 
 ChannelSolution solve_by_global(const ChannelProblem& p, GlobalBasis basis) {
-  ChannelSolution solution;
-  const double k = p.coefficients.k;
   const auto particular = std::make_shared<const ParticularSolution>(p, particular_options(p));
   const BoundaryChecks checks = boundary_checks(p, *particular);
-  const std::size_t least = p.settings.knots.value_or(first_knots);
   const std::size_t most = p.settings.knots.value_or(most_knots);
+  const double wanted = misfit_allowed * p.settings.tolerance;
+  const FactorCache::Key key = p.factor_key(method_of(basis));
+  const auto kept = p.factors.find<KeptFactors>(key);
+  SharedFactors factors =
+      kept ? kept->factors : factor(p, basis, p.settings.knots.value_or(first_knots));
 
-  BoundaryVerdict verdict;
-  std::size_t count = least;
-  // An earlier light has found out how many knots it takes.
-  if (const auto kept = p.factors.find<GlobalFactors>(p.factor_key(method_of(basis))))
-    count = kept->count;
-  const std::size_t first = count;
-  for (;; count *= 2) {
-    const std::shared_ptr<const GlobalFactors> factors = kept_factors(p, basis, count);
-    const GlobalBkmSolver& solver = factors->solver;
-    const BoundaryData data =
-        boundary_data(p, *particular, factors->knots.positions, factors->knots.normals, p.seed);
-    const GlobalField halves[2] = {solver.solve(data.g[0]), solver.solve(data.g[1])};
-    const BoundaryVerdict found =
-        judge_boundary(p, checks, {part(halves[0], k), part(halves[1], k)});
-    const bool worthwhile =
-        count == first || found.robin_residual < worth_doubling * verdict.robin_residual;
-    if (count == first || found.robin_residual < verdict.robin_residual) {
-      verdict = found;
-      const GlobalField mean(basis, p.coefficients.lambda, solver.problem().centers,
-                             0.5 * (halves[0].coefficients() + halves[1].coefficients()));
-      solution = boundary_solution(p, particular, verdict, part(mean, k));
-      solution.method = method_of(basis);
-      solution.figures.insert(
-          solution.figures.end(),
-          {{"boundary_knots", static_cast<double>(count)},
-           {"homogeneous_rank", static_cast<double>(solver.rank())},
-           {"homogeneous_condition", solver.condition()},
-           {"largest_coefficient",
-            relative(mean.coefficients().cwiseAbs().maxCoeff(), verdict.scale)}});
+  Round best = solve_on(*factors, basis, checks, particular, p);
+  // Good enough for the light they were made for, and as good for this one.
+  if (kept && best.residual <= as_good_as_before * std::max(kept->residual, wanted))
+    return best.solution;
+  double before = best.residual;
+  SharedFactors best_factors = factors;
+  while (before > wanted && 2 * factors->count <= most) {
+    factors = factor(p, basis, 2 * factors->count);
+    Round next = solve_on(*factors, basis, checks, particular, p);
+    const bool worthwhile = next.residual < worth_doubling * before;
+    before = next.residual;
+    if (next.residual < best.residual) {
+      best = std::move(next);
+      best_factors = factors;
     }
-    if (!worthwhile || 2 * count > most ||
-        found.robin_residual <= misfit_allowed * p.settings.tolerance)
-      break;
+    if (!worthwhile) break;
   }
-  return solution;
+  p.factors.put(key, std::make_shared<const KeptFactors>(KeptFactors{best_factors, best.residual}));
+  return best.solution;
 }
 
 }  // namespace

@@ -82,7 +82,8 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
   const SurfaceSamples checks = boundary_check_points(p);
   const Eigen::VectorXd u = field.values(checks.positions, checks.normals);
   const GridErrorEstimate estimate =
-      estimate_error(field, coarse_solution.field, checks.positions, checks.normals);
+      estimate_error(field, coarse_solution.field, checks.positions, checks.normals,
+                     p.coefficients.lambda * grids.size.h);
   // Both relative to the rms over the surface.
   solution.numerical_error = relative(estimate.rms * estimate.scale, root_mean_square(u));
   solution.noise =

@@ -1,7 +1,5 @@
 #include "pipeline/solve_lbkm.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -26,6 +24,8 @@ constexpr double residual_wanted = 0.5;
 // Two rounds that leave more than this of the residual were not worth it: what is left is not
 // smooth (facets, sharp edges), and splitting patches will not resolve it.
 constexpr double worth_splitting = 0.85;
+// Patches made for one light are taken for the next if they leave no more of it than this.
+constexpr double as_good_as_before = 1.2;
 // The patches split are those with the largest misfits that together make up this share of the
 // squared misfit of all [Dör96].
 constexpr double share_split = 0.7;
@@ -39,6 +39,7 @@ HomogeneousPart part(const LocalField& field, double k) {
 
 PatchTreeOptions first_patches(const ChannelProblem& p) {
   PatchTreeOptions options;
+  options.most_patches = most_patches;
   const double lambda = p.coefficients.lambda;
   if (lambda == 0.0) return options;
   const double affordable =
@@ -48,28 +49,29 @@ PatchTreeOptions first_patches(const ChannelProblem& p) {
   return options;
 }
 
-// Patches split where an earlier light needed it, factored.
 struct LocalFactors {
   std::shared_ptr<const SpreadKnots> knots;
   std::shared_ptr<const PatchTree> tree;
   LocalBkmSolver solver;
 };
+using SharedFactors = std::shared_ptr<const LocalFactors>;
+
+// What an earlier light needed: patches split for it, and what it left then.
+struct KeptFactors {
+  SharedFactors factors;
+  double residual;
+};
 
 // On a tree as it is split, without patches yet.
-std::shared_ptr<const LocalFactors> factor(std::shared_ptr<const SpreadKnots> knots,
-                                           std::shared_ptr<PatchTree> tree, const BodyQueries& body,
-                                           const ChannelProblem& p) {
+SharedFactors factor(std::shared_ptr<const SpreadKnots> knots, std::shared_ptr<PatchTree> tree,
+                     const BodyQueries& body, const ChannelProblem& p) {
   tree->make_patches(body, p.workers);
-  auto factors = std::make_shared<const LocalFactors>(LocalFactors{
+  return std::make_shared<const LocalFactors>(LocalFactors{
       std::move(knots), tree,
       LocalBkmSolver(tree, body, p.coefficients.lambda, p.coefficients.k, {}, p.workers)});
-  p.factors.put(p.factor_key(Method::lbkm), factors);
-  return factors;
 }
 
-std::shared_ptr<const LocalFactors> first_factors(const BodyQueries& body,
-                                                  const ChannelProblem& p) {
-  if (auto kept = p.factors.find<LocalFactors>(p.factor_key(Method::lbkm))) return kept;
+SharedFactors first_factors(const BodyQueries& body, const ChannelProblem& p) {
   auto knots =
       std::make_shared<const SpreadKnots>(spread_surface_knots(p.shape, knot_choices, p.seed));
   return factor(knots, std::make_shared<PatchTree>(knots, first_patches(p)), body, p);
@@ -141,54 +143,97 @@ std::vector<std::size_t> leaves_to_split(const PatchTree& tree, const LocalMisfi
   return leaves;
 }
 
+// What the patches leave between each other next to the surface: rms over it, W/(length^2 sr).
+double jumps_at_surface(const PatchTree& tree, const LocalMisfit& misfit) {
+  double squares = 0.0, areas = 0.0;
+  for (std::size_t i = 0; i < tree.patches().size(); ++i) {
+    const Patch& patch = tree.patches()[i];
+    const double area = patch.knot_area * static_cast<double>(patch.knots.size());
+    squares += area * std::pow(misfit.joints[static_cast<Eigen::Index>(i)], 2);
+    areas += area;
+  }
+  return areas > 0.0 ? std::sqrt(squares / areas) : 0.0;
+}
+
+// One set of patches tried.
+struct Round {
+  ChannelSolution solution;
+  LocalMisfit misfit;
+  double residual;
+};
+
+Round solve_on(const LocalFactors& factors, KnotData& data, const BodyQueries& body,
+               const BoundaryChecks& checks,
+               const std::shared_ptr<const ParticularSolution>& particular,
+               const ChannelProblem& p) {
+  const PatchTree& tree = *factors.tree;
+  const LocalBkmSolver& solver = factors.solver;
+  const double k = p.coefficients.k;
+  data.evaluate(solver.knots_used());
+  const LocalSolution halves[2] = {solver.solve(data.g[0], p.workers),
+                                   solver.solve(data.g[1], p.workers)};
+  const BoundaryVerdict verdict = judge_boundary(
+      p, checks, {part(solver.field(halves[0], body), k), part(solver.field(halves[1], body), k)});
+  LocalSolution mean = halves[0];
+  mean.beta = 0.5 * (halves[0].beta + halves[1].beta);
+  Round round{boundary_solution(p, particular, verdict, part(solver.field(mean, body), k)),
+              solver.misfit(halves[0], data.g[0], halves[1], data.g[1], p.workers),
+              verdict.robin_residual};
+  const double jumps = relative(jumps_at_surface(tree, round.misfit), verdict.scale);
+  round.solution.numerical_error += jumps;
+  round.solution.method = Method::lbkm;
+  if (!halves[0].converged || !halves[1].converged)
+    round.solution.failures.push_back("the iteration over the patches did not converge");
+  round.solution.figures.insert(
+      round.solution.figures.end(),
+      {{"patches", static_cast<double>(tree.patches().size())},
+       {"unknowns", static_cast<double>(solver.unknowns())},
+       {"boundary_knots", static_cast<double>(solver.knots_used().size())},
+       {"iterations", static_cast<double>(halves[0].iterations)},
+       {"patch_jumps", jumps},
+       {"largest_coefficient", relative(mean.beta.cwiseAbs().maxCoeff(), verdict.scale)}});
+  return round;
+}
+
 }  // namespace
 
 ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
-  ChannelSolution solution;
-  const double k = p.coefficients.k;
   const auto particular = std::make_shared<const ParticularSolution>(p, particular_options(p));
   const BodyQueries body = body_queries(p);
   const BoundaryChecks checks = boundary_checks(p, *particular);
-  std::shared_ptr<const LocalFactors> factors = first_factors(body, p);
+  const FactorCache::Key key = p.factor_key(Method::lbkm);
+  const auto kept = p.factors.find<KeptFactors>(key);
+  SharedFactors factors = kept ? kept->factors : first_factors(body, p);
   KnotData data(p, *particular, *factors->knots);
-  std::vector<double> residuals;  // round by round
-  for (int round = 1;; ++round) {
+  const double wanted = residual_wanted * p.settings.tolerance;
+
+  Round best = solve_on(*factors, data, body, checks, particular, p);
+  // Good enough for the light they were made for, and as good for this one.
+  if (kept && best.residual <= as_good_as_before * std::max(kept->residual, wanted))
+    return best.solution;
+  SharedFactors best_factors = factors;
+  std::vector<double> residuals{best.residual};
+  LocalMisfit misfit = best.misfit;
+  for (int round = 2; round <= most_rounds && residuals.back() > wanted; ++round) {
     const PatchTree& tree = *factors->tree;
-    const LocalBkmSolver& solver = factors->solver;
-    data.evaluate(solver.knots_used());
-    const LocalSolution halves[2] = {solver.solve(data.g[0], p.workers),
-                                     solver.solve(data.g[1], p.workers)};
-    const BoundaryVerdict verdict = judge_boundary(
-        p, checks,
-        {part(solver.field(halves[0], body), k), part(solver.field(halves[1], body), k)});
-    LocalSolution mean = halves[0];
-    mean.beta = 0.5 * (halves[0].beta + halves[1].beta);
-    solution = boundary_solution(p, particular, verdict, part(solver.field(mean, body), k));
-    solution.method = Method::lbkm;
-    if (!halves[0].converged || !halves[1].converged)
-      solution.failures.push_back("the iteration over the patches did not converge");
-    solution.figures.insert(
-        solution.figures.end(),
-        {{"patches", static_cast<double>(tree.patches().size())},
-         {"unknowns", static_cast<double>(solver.unknowns())},
-         {"boundary_knots", static_cast<double>(data.count)},
-         {"rounds", static_cast<double>(round)},
-         {"iterations", static_cast<double>(halves[0].iterations)},
-         {"largest_coefficient", relative(mean.beta.cwiseAbs().maxCoeff(), verdict.scale)}});
-    if (!(verdict.robin_residual > residual_wanted * p.settings.tolerance) ||
-        (round > 2 && verdict.robin_residual > worth_splitting * residuals.end()[-2]) ||
-        round == most_rounds)
-      break;
-    residuals.push_back(verdict.robin_residual);
-    const LocalMisfit misfit = solver.misfit(halves[0], data.g[0], halves[1], data.g[1], p.workers);
     const std::vector<std::size_t> leaves = leaves_to_split(tree, misfit);
     if (leaves.empty() || tree.patches().size() + 4 * leaves.size() > most_patches) break;
-    // The field found so far keeps its tree as it is.
+    // The best field so far keeps its tree as it is.
     auto finer = std::make_shared<PatchTree>(tree);
     for (const std::size_t leaf : leaves) finer->split(leaf);
     factors = factor(factors->knots, std::move(finer), body, p);
+    Round next = solve_on(*factors, data, body, checks, particular, p);
+    misfit = next.misfit;
+    residuals.push_back(next.residual);
+    if (next.residual < best.residual) {
+      best = std::move(next);
+      best_factors = factors;
+    }
+    if (round > 2 && residuals.back() > worth_splitting * residuals.end()[-3]) break;
   }
-  return solution;
+  p.factors.put(key, std::make_shared<const KeptFactors>(KeptFactors{best_factors, best.residual}));
+  best.solution.figures.emplace_back("rounds", static_cast<double>(residuals.size()));
+  return best.solution;
 }
 
 }  // namespace knotlight

@@ -24,11 +24,15 @@ constexpr double nearest_share = 1.0 / 3.0;
 // A ball that touches the plane from outside is free of the surface if that comes no nearer to its
 // centre than this share of its radius; the rest allows for normals that are not the facets'.
 constexpr double ball_share = 0.9;
+// Image charges between two walls stay clear of the opposite one: in the nearer part of the gap.
+constexpr double roof_share = 0.5;
 // Steps smaller than this share of the height mean that the way ends here.
 constexpr double least_step = 0.02;
 // Planes within a cell of this size, in k, share a height, and are content with less of it.
 constexpr double cell = 0.5;
 constexpr double shared_share = 0.75;
+// With less room than this, in k, heights change within a cell: each plane is asked for its own.
+constexpr double narrow = 1.0;
 
 constexpr std::size_t cells_per_chunk = 512;  // about a millisecond of searching
 
@@ -77,8 +81,11 @@ double TangentPlanes::clear_height(const TangentPlane& plane) const {
     const auto nearest = caster_.nearest_point(plane.point + height * plane.normal, object_, most);
     return nearest ? nearest->distance : most;
   };
+  // Not through an opposite wall: beyond it distances would grow again, inside the body.
+  const auto wall = caster_.nearest({plane.point, plane.normal, reach * k_}, object_);
+  const double top = wall ? roof_share * wall->t : reach * k_;
+  if (top < lowest * k_) return top;
   // On a convex body one search will do.
-  const double top = reach * k_;
   if (distance(top, ball_share * top) == ball_share * top) return top;
   // Upwards, each time as far as the distance found says that it is safe to go.
   double height = lowest * k_;
@@ -116,7 +123,8 @@ std::vector<double> TangentPlanes::clear_heights(const std::vector<TangentPlane>
                          const double own = clear_height(planes[keys[first].index]);
                          const double height = own < reach * k_ ? shared_share * own : own;
                          for (std::size_t i = first; i < first_of_cell[c + 1]; ++i)
-                           heights[keys[i].index] = height;
+                           heights[keys[i].index] =
+                               own < narrow * k_ ? clear_height(planes[keys[i].index]) : height;
                        }
                      });
   return heights;

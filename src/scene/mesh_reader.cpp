@@ -43,8 +43,9 @@ bool is_ply(const std::string& path) {
 }
 
 // assimp's reader never comes back from a PLY header without an end, and takes line breaks that
-// binary data happen to start with for more of the header. Returns the file with an edge, which it leaves out, of one
-// harmless byte before its data if they start so, and nothing if assimp can read it as it is.
+// binary data happen to start with for more of the header. Returns the file with an edge, which it
+// leaves out, of one harmless byte before its data if they start so, and nothing if assimp can read
+// it as it is.
 std::string check_ply(const std::string& path) {
   constexpr std::size_t longest_header = 1 << 16;  // some 1000 lines; real ones have about 10
   std::ifstream file(path, std::ios::binary);

@@ -118,7 +118,7 @@ struct SolverSettings {
   std::optional<std::size_t> irradiance_samples;  // per object; irradiance models only
   // Follow light that left and enters again; left out: with Boundary::milne.
   std::optional<bool> returning_light;
-  bool similarity = false;                        // replace (sigma_s, g) by ((1 - g) sigma_s, 0)
+  bool similarity = false;  // replace (sigma_s, g) by ((1 - g) sigma_s, 0)
   DensityEstimator estimator = DensityEstimator::nearest;
   std::optional<double> estimate_radius;  // of the ball of a density estimate, mean free paths
 };

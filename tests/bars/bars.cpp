@@ -4,6 +4,7 @@
 //   bars [METHOD...] [--cases 'sphere*'] [--set key=value] [--csv FILE]
 //   bars [METHOD...] --cases bunny --tolerances 0.04 0.02 0.01 --svg FILE   error against seconds
 //   bars [METHOD...] --detail 1000000 --svg STEM                            time and memory growth
+//   bars [METHOD...] --estimates 50 --svg FILE                              error estimates judged
 #include <fmt/format.h>
 #include <fnmatch.h>
 
@@ -12,9 +13,9 @@
 #include <cstdio>
 
 #include "cases.h"
-#include "child.h"
 #include "core/file_io.h"
 #include "detail.h"
+#include "estimates.h"
 #include "measure.h"
 #include "pictures.h"
 #include "report/csv.h"
@@ -26,7 +27,8 @@ struct CommandLine {
   std::vector<std::string> methods{"auto"};
   std::vector<std::string> cases{"*"};
   std::vector<std::string> tolerances;
-  std::size_t detail = 0;  // most triangles; 0 = no such run
+  std::size_t detail = 0;     // most triangles; 0 = no such run
+  std::size_t estimates = 0;  // random scenes; 0 = no such run
   std::string csv, svg, fem = KNOTLIGHT_ROOT "/tests/bars/fem.csv";
   RunOptions options;
 };
@@ -41,6 +43,9 @@ void parse(CommandLine& line, CLI::App& app) {
   app.add_option("--threads", line.options.threads, "threads; 0 = one per core");
   app.add_option("--tolerances", line.tolerances, "run with each of these solver.tolerance");
   app.add_option("--detail", line.detail, "growth with detail, up to so many triangles");
+  app.add_option("--estimates", line.estimates,
+                 "compare estimates with true errors over so many random scenes; --seed draws "
+                 "others");
   app.add_option("--csv", line.csv, "table to write, after every run");
   app.add_option("--svg", line.svg,
                  "chart to write: error against seconds of the last case; with --detail the stem "
@@ -73,17 +78,7 @@ std::vector<Measured> measure_cases(const CommandLine& line) {
   std::vector<Measured> runs;
   for (const BarsCase& c : bars_cases()) {
     if (!wanted(c.name, line.cases)) continue;
-    // In a child: the measured ones would inherit the mesh's memory. What goes wrong shows as a
-    // scene whose mesh is missing.
-    if (c.make_mesh)
-      run_in_child([&] {
-        try {
-          c.make_mesh();
-        } catch (const std::exception& error) {
-          fmt::print(stderr, "bars: {}\n", error.what());
-        }
-        return std::string();
-      });
+    make_mesh(c);
     for (const std::string& method : line.methods)
       for (const RunOptions& options : settings) {
         runs.push_back(measure(c, method, options));
@@ -96,6 +91,13 @@ std::vector<Measured> measure_cases(const CommandLine& line) {
 }
 
 int run(const CommandLine& line) {
+  if (line.estimates > 0) {
+    const std::vector<Estimated> results =
+        measure_estimates(line.methods, line.estimates, line.options, line.csv);
+    fmt::print("{}", summary(results));
+    if (!line.svg.empty()) write_text_file(line.svg, estimates_chart(results));
+    return 0;
+  }
   fmt::print("{}\n", heading());
   if (line.detail > 0) {
     const std::vector<Measured> runs = measure_detail(line.methods, line.detail, line.options);

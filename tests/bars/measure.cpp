@@ -106,6 +106,18 @@ double number(const Json& json, const char* key) {
 
 }  // namespace
 
+void make_mesh(const BarsCase& c) {
+  if (!c.make_mesh) return;
+  run_in_child([&] {  // measured processes would inherit the mesh's memory
+    try {
+      c.make_mesh();
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "bars: {}\n", error.what());
+    }
+    return std::string();
+  });
+}
+
 Measured measure(const BarsCase& c, const std::string& method, const RunOptions& options) {
   Measured m;
   m.case_name = c.name;

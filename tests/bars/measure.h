@@ -27,6 +27,10 @@ struct Measured {
   std::string note;  // the first complaint
 };
 
+// Writes the mesh that the scene names, if it has to be made. What goes wrong is printed, and shows
+// as a scene whose mesh is missing.
+void make_mesh(const BarsCase& c);
+
 // Runs the case by a method (a word of solver.method) with more overrides, in a child process.
 // Prints nothing.
 Measured measure(const BarsCase& c, const std::string& method, const RunOptions& options);

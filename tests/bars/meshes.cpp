@@ -66,18 +66,15 @@ void put_ply(const std::string& path, const TriangleMesh& mesh) {
   std::ofstream file(path, std::ios::binary);
   file << fmt::format(
       "ply\nformat binary_little_endian 1.0\n"
-      "element vertex {}\nproperty uchar first\n"
+      "element vertex {}\n"
       "property float x\nproperty float y\nproperty float z\n"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
       mesh.vertices.size(), mesh.triangles.size());
   const auto put = [&file](const auto& value) {
     file.write(reinterpret_cast<const char*>(&value), sizeof(value));
   };
-  for (const Vec3& v : mesh.vertices) {
-    // assimp 5.2 takes a line feed that the data happen to start with for one of the header's.
-    put(std::uint8_t{0});
+  for (const Vec3& v : mesh.vertices)
     for (const double x : v) put(static_cast<float>(x));
-  }
   for (const Triangle& t : mesh.triangles) {
     put(std::uint8_t{3});
     for (const std::uint32_t v : t) put(v);

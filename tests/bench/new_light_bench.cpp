@@ -46,4 +46,3 @@ BENCHMARK(new_light)
     ->UseRealTime();
 
 }  // namespace
-

@@ -38,9 +38,9 @@ double largest_error(const GlobalBkmSolver& solver, const OutsideSource& source,
   return worst / size;
 }
 
-// A source three radii away has content of about (2l+1) 4^-l in degree l: the rank of 100 (l up to 9)
-// that the non-singular solutions have leaves 1e-4 at its brightest. Measured: 1.1e-4, and 1e-5 for
-// sources outside.
+// A source three radii away has content of about (2l+1) 4^-l in degree l: the rank of 100 (l up to
+// 9) that the non-singular solutions have leaves 1e-4 at its brightest. Measured: 1.1e-4, and 1e-5
+// for sources outside.
 TEST(GlobalSolver, FindsASmoothField) {
   const OutsideSource source{Vec3(2.4, -2.4, 2.1), 1.5};
   for (const GlobalBasis basis :

@@ -15,6 +15,7 @@ TEST(ErrorEstimate, BracketsTheTrueError) {
   int above = 0, cases = 0;
   for (const BeamCase& beam : beam_cases())
     for (const double h : {2.0 / 48.0, 2.0 / 37.0}) {
+      const double lambda = std::sqrt(3.0 * (1.0 - beam.albedo)) * beam.sigma_t;
       const GridField fine = beam_on_sphere(beam, geometry(Sphere{}, h)).field;
       const GridField coarse = beam_on_sphere(beam, geometry(Sphere{}, 2.0 * h)).field;
       double error = 0.0;
@@ -30,7 +31,7 @@ TEST(ErrorEstimate, BracketsTheTrueError) {
           largest = std::max(largest, u);
         }
       error = std::sqrt(error / static_cast<double>(points.cols())) / largest;
-      const GridErrorEstimate estimate = estimate_error(fine, coarse, points, points);
+      const GridErrorEstimate estimate = estimate_error(fine, coarse, points, points, lambda * h);
       ++cases;
       above += estimate.rms >= error ? 1 : 0;
       RecordProperty("case" + std::to_string(cases),
@@ -41,13 +42,27 @@ TEST(ErrorEstimate, BracketsTheTrueError) {
   EXPECT_GE(above, cases - 1);
 }
 
+// The same difference stands for a larger error where light decays within a cell.
+TEST(ErrorEstimate, IsLargerWhereLightDecaysWithinACell) {
+  const auto g = geometry(Sphere{}, 0.2);
+  const GridField one(g, Eigen::VectorXd::Ones(g->finest().dofs));
+  const GridField half(g, Eigen::VectorXd::Constant(g->finest().dofs, 0.5));
+  const Samples s = samples(Sphere{}, 100);
+  const auto rms = [&](double cell) {
+    return estimate_error(one, half, s.positions, s.normals, cell).rms;
+  };
+  EXPECT_NEAR(rms(0.0), 0.5 / (std::pow(2.0, 1.3) - 1.0), 1e-9);
+  EXPECT_NEAR(rms(1.0), 0.5 / (2.0 - 1.0), 1e-9);  // first order
+  EXPECT_GT(rms(3.0), rms(2.0));
+}
+
 // A dark object is exact; not a number stays so.
 TEST(ErrorEstimate, DarkAndBad) {
   const auto g = geometry(Sphere{}, 0.2);
   const GridField dark(g, Eigen::VectorXd::Zero(g->finest().dofs));
   const Samples s = samples(Sphere{}, 100);
-  EXPECT_EQ(estimate_error(dark, dark, s.positions, s.normals).rms, 0.0);
-  EXPECT_TRUE(std::isnan(estimate_error(GridField(), dark, s.positions, s.normals).rms));
+  EXPECT_EQ(estimate_error(dark, dark, s.positions, s.normals, 0.0).rms, 0.0);
+  EXPECT_TRUE(std::isnan(estimate_error(GridField(), dark, s.positions, s.normals, 0.0).rms));
 }
 
 }  // namespace
