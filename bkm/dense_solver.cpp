@@ -112,10 +112,10 @@ void DenseSolver::factor_qr(Eigen::MatrixXd a) {
   condition_ = diagonal.minCoeff() > 0.0 ? size * gain(diagonal.size()) : infinity;
 }
 
-Eigen::MatrixXd DenseSolver::solve_directly(Eigen::MatrixXd b) const {
-  if (options_.method == DenseMethod::lu) return lapack::lu_solve(lu_, std::move(b), false);
+Eigen::MatrixXd DenseSolver::solve_directly(const Eigen::MatrixXd& b) const {
+  if (options_.method == DenseMethod::lu) return lapack::lu_solve(lu_, b, false);
   const Eigen::Index columns = b.cols();
-  const Eigen::MatrixXd rotated = lapack::apply_q_transposed(qr_, std::move(b)).topRows(rank_);
+  const Eigen::MatrixXd rotated = lapack::apply_q_transposed(qr_, b).topRows(rank_);
   const Eigen::MatrixXd y =
       qr_.a.topLeftCorner(rank_, rank_).triangularView<Eigen::Upper>().solve(rotated);
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(columns_, columns);

@@ -76,7 +76,7 @@ class DenseSolver {
   DataSpectrum spectrum_of(const Eigen::VectorXd& b) const;
   double regulariser(const Eigen::VectorXd& b) const;
   Eigen::VectorXd weights(double mu) const;                 // of u_i . b in the coefficient of v_i
-  Eigen::MatrixXd solve_directly(Eigen::MatrixXd b) const;  // lu and qr
+  Eigen::MatrixXd solve_directly(const Eigen::MatrixXd& b) const;  // lu and qr
 
   DenseSolverOptions options_;
   Eigen::Index rows_ = 0, columns_ = 0;

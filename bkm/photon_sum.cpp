@@ -133,7 +133,7 @@ class BatchSum {
   // Results per lane, without the factor 1/(4 pi).
   DoubleLanes value, derivative, magnitude, slope_magnitude;
   TruncationError error, derivative_error;  // for every point of the batch
-  std::uint64_t direct, clusters;           // interactions per point
+  std::uint64_t direct = 0, clusters = 0;   // interactions per point
 
   // x, n: the batch's points and normals (n is not read without derivatives).
   void run(const std::array<Vec3, lane_count>& x, const std::array<Vec3, lane_count>& n) {
@@ -271,7 +271,7 @@ class BatchSum {
   bool derivatives_;
 
   DoubleLanes x_, y_, z_;
-  LanePoints points_;
+  LanePoints points_{};
   Vec3 center_;
   double radius_ = 0.0;
   double mean_green_ = 0.0;  // a lower bound of sum |q| G / sum |q|

@@ -29,9 +29,12 @@ ShapeChoice leave_one_out_width(const Points& points, const Eigen::VectorXd& f,
   const auto try_width = [&](int exponent) {
     if (exponent < narrowest || exponent > widest || tried.contains(exponent)) return;
     radial.c = width(exponent);
-    Eigen::MatrixXd phi = source_matrix(points, radial, assembly);
-    zero_tiny_entries(phi);
-    const Eigen::VectorXd errors = DenseSolver(std::move(phi), solver).leave_one_out(f);
+    const auto matrix = [&] {
+      Eigen::MatrixXd phi = source_matrix(points, radial, assembly);
+      zero_tiny_entries(phi);
+      return phi;
+    };
+    const Eigen::VectorXd errors = DenseSolver(matrix(), solver).leave_one_out(f);
     tried[exponent] = std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size()));
   };
   const auto best = [&] {

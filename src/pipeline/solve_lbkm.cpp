@@ -128,7 +128,8 @@ std::vector<std::size_t> leaves_to_split(const PatchTree& tree, const LocalMisfi
   std::vector<std::size_t> order(patches.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return squared[a] > squared[b] || (squared[a] == squared[b] && a < b);
+    if (squared[a] != squared[b]) return squared[a] > squared[b];
+    return a < b;
   });
   const double all = std::accumulate(squared.begin(), squared.end(), 0.0);
   std::vector<std::size_t> leaves;
@@ -229,7 +230,7 @@ ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
       best = std::move(next);
       best_factors = factors;
     }
-    if (round > 2 && residuals.back() > worth_splitting * residuals.end()[-3]) break;
+    if (round > 2 && residuals.back() > worth_splitting * residuals[residuals.size() - 3]) break;
   }
   p.factors.put(key, std::make_shared<const KeptFactors>(KeptFactors{best_factors, best.residual}));
   best.solution.figures.emplace_back("rounds", static_cast<double>(residuals.size()));

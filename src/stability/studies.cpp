@@ -41,10 +41,11 @@ std::vector<Trial> lines(const Setting& setting, const BoundaryCase& c, double l
 
 class Studies {
  public:
-  Studies(bool quick, std::uint64_t seed) : quick_(quick), seed_(seed) {
-    bodies_ = {std::make_shared<const Body>(unit_ball()),
-               std::make_shared<const Body>(thin_torus())};
-  }
+  Studies(bool quick, std::uint64_t seed)
+      : quick_(quick),
+        seed_(seed),
+        bodies_{std::make_shared<const Body>(unit_ball()),
+                std::make_shared<const Body>(thin_torus())} {}
 
   std::vector<StudyJob> jobs() {
     for (const auto& body : bodies_) {
