@@ -75,7 +75,7 @@ class DenseSolver {
   bool damps() const;     // the Tikhonov methods
   DataSpectrum spectrum_of(const Eigen::VectorXd& b) const;
   double regulariser(const Eigen::VectorXd& b) const;
-  Eigen::VectorXd weights(double mu) const;                 // of u_i . b in the coefficient of v_i
+  Eigen::VectorXd weights(double mu) const;  // of u_i . b in the coefficient of v_i
   Eigen::MatrixXd solve_directly(const Eigen::MatrixXd& b) const;  // lu and qr
 
   DenseSolverOptions options_;
