@@ -54,7 +54,7 @@ Batch bessel_quotient_series(const Batch& y, int m) {
 }
 
 Batch bessel_quotient(const Batch& y, int m, double scale_exponent) {
-  const Batch series = std::exp(-scale_exponent) * bessel_quotient_series(y.min(upward_limit), m);
+  Batch series = std::exp(-scale_exponent) * bessel_quotient_series(y.min(upward_limit), m);
   // Negated, so that not-a-number goes through the closed form.
   if ((y < upward_limit).all()) return series;
   const Exponentials e = exponentials(y, scale_exponent);

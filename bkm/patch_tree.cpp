@@ -70,7 +70,7 @@ Connection connect(const std::vector<Vec3>& points, const Vec3& center, const Bo
     std::vector<std::size_t> found{seed};
     bool complete = false;
     for (std::size_t q = 0; q < found.size() && q < most_hubs && !complete; ++q) {
-      const Vec3 hub = points[found[q]];
+      const Vec3& hub = points[found[q]];
       connection.hubs.back().push_back(hub);
       complete = true;
       for (const std::size_t other : order) {
@@ -134,7 +134,8 @@ void PatchTree::gather(std::size_t node, const Vec3& center, double half,
   if (!within(leaf.center, center, half + leaf.half)) return;
   if (leaf.first_child >= 0) {
     for (int c = 0; c < 8; ++c)
-      gather(static_cast<std::size_t>(leaf.first_child + c), center, half, found);
+      gather(static_cast<std::size_t>(leaf.first_child) + static_cast<std::size_t>(c), center, half,
+             found);
     return;
   }
   for (const Eigen::Index i : leaf.knots)
@@ -149,7 +150,9 @@ bool PatchTree::touches(std::size_t node, const Vec3& center, double half) const
       return within(surface_->positions.col(i), center, half);
     });
   for (int c = 0; c < 8; ++c)
-    if (touches(static_cast<std::size_t>(leaf.first_child + c), center, half)) return true;
+    if (touches(static_cast<std::size_t>(leaf.first_child) + static_cast<std::size_t>(c), center,
+                half))
+      return true;
   return false;
 }
 
@@ -273,7 +276,8 @@ void PatchTree::make_patches(const BodyQueries& body, const Workers& workers) {
     for (const std::size_t leaf : again) {
       split(leaf);
       for (int c = 0; c < 8; ++c)
-        leaves.push_back(static_cast<std::size_t>(nodes_[leaf].first_child + c));
+        leaves.push_back(static_cast<std::size_t>(nodes_[leaf].first_child) +
+                         static_cast<std::size_t>(c));
     }
   }
 }

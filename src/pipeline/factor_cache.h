@@ -23,7 +23,8 @@ class FactorCache {
     Method method;
     double lambda;  // 1/length
     double k;       // length
-    auto operator<=>(const Key&) const = default;
+    // clang-tidy 14 takes the 0 that <=> is compared with for a pointer.
+    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr)
   };
 
   // What was put there last; null if nothing was.

@@ -63,8 +63,9 @@ struct KeptFactors {
 };
 
 // On a tree as it is split, without patches yet.
-SharedFactors factor(std::shared_ptr<const SpreadKnots> knots, std::shared_ptr<PatchTree> tree,
-                     const BodyQueries& body, const ChannelProblem& p) {
+SharedFactors factor(std::shared_ptr<const SpreadKnots> knots,
+                     const std::shared_ptr<PatchTree>& tree, const BodyQueries& body,
+                     const ChannelProblem& p) {
   tree->make_patches(body, p.workers);
   return std::make_shared<const LocalFactors>(LocalFactors{
       std::move(knots), tree,
@@ -222,7 +223,7 @@ ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
     // The best field so far keeps its tree as it is.
     auto finer = std::make_shared<PatchTree>(tree);
     for (const std::size_t leaf : leaves) finer->split(leaf);
-    factors = factor(factors->knots, std::move(finer), body, p);
+    factors = factor(factors->knots, finer, body, p);
     Round next = solve_on(*factors, data, body, checks, particular, p);
     misfit = next.misfit;
     residuals.push_back(next.residual);

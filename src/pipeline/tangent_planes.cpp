@@ -41,7 +41,8 @@ struct CellKey {
   std::array<std::int64_t, 3> place;
   std::size_t index;
 
-  auto operator<=>(const CellKey&) const = default;
+  // clang-tidy 14 takes the 0 that <=> is compared with for a pointer.
+  auto operator<=>(const CellKey&) const = default;  // NOLINT(modernize-use-nullptr)
   bool same_cell(const CellKey& other) const {
     return primitive == other.primitive && place == other.place;
   }
