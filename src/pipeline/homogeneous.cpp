@@ -17,9 +17,6 @@ constexpr std::size_t points_per_chunk = 64;
 constexpr double smoothing_share = 0.1;
 constexpr double smoothing_bias = 0.35;
 constexpr double small_body_bias = 0.85;
-// The right-hand side of layers on the surface (flights' ends, g != 0) is known to so much of it:
-// 0.4 % to 1.3 % on balls of 20 to 60 mean free paths. The field is off by as much at the most.
-constexpr double layers_unknown = 0.01;
 // Ends of flights are raised out of the body, by two mean distances between them or by k/2 at most
 // (photon_sources.cpp); balls about them that reached into it would be sources there. Half of that.
 constexpr double clear_of_ends = 1.0;
@@ -76,9 +73,6 @@ BoundaryVerdict judge_boundary(const ChannelProblem& p, const BoundaryChecks& ch
       std::sqrt(mean_square_effect(checks.at.positions, residual, p.coefficients.k, p.workers));
   verdict.solver_error =
       std::min(verdict.robin_residual, thin_limb_factor * relative(effect, verdict.scale));
-  const Eigen::VectorXd layers =
-      0.5 * (checks.particular.surface_data[0] + checks.particular.surface_data[1]);
-  verdict.solver_error += layers_unknown * relative(root_mean_square(layers), verdict.scale);
   verdict.largest_residual =
       relative(0.5 * (residual[0] + residual[1]).cwiseAbs().maxCoeff(), verdict.scale);
   return verdict;

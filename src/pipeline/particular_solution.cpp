@@ -42,13 +42,7 @@ ParticularSolution::ParticularSolution(const ChannelProblem& p, const PhotonSumO
       k_(p.coefficients.k) {
   for (std::size_t half = 0; half < 2; ++half) {
     PointSources sources = photon_sources(p, static_cast<int>(half));
-    SurfaceLayers layers = surface_layers(sources, lambda_);
-    if (layers.charges.size() > 0) {
-      layer_charges_[half] = std::make_unique<const PhotonSum>(std::move(layers.charges), lambda_,
-                                                               k_, PhotonSumOptions{}, p.workers);
-      layer_dipoles_[half] = std::make_unique<const PhotonSum>(std::move(layers.dipoles), lambda_,
-                                                               k_, PhotonSumOptions{}, p.workers);
-    }
+    layers_[half] = std::make_unique<const EndLayer>(sources, lambda_);
     sums_[half] =
         std::make_unique<const PhotonSum>(std::move(sources), lambda_, k_, options, p.workers);
   }
@@ -63,11 +57,7 @@ ParticularValues ParticularSolution::evaluate(const Points& x, const Points* nor
     result.normal_derivative[half] = std::move(sum.normal_derivative);
     result.error_estimate = std::max(result.error_estimate, sum.error_estimate);
     if (normals == nullptr) continue;
-    result.surface_data[half] = Eigen::VectorXd::Zero(x.cols());
-    if (layer_charges_[half])
-      result.surface_data[half] =
-          k_ * (layer_charges_[half]->evaluate(x, normals, workers).normal_derivative +
-                layer_dipoles_[half]->evaluate(x, nullptr, workers).value);
+    result.surface_data[half] = k_ * layers_[half]->density(x, *normals, workers);
   }
   if (emitted_ == 0.0) return result;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {

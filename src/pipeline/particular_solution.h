@@ -8,6 +8,7 @@
 
 #include "bkm/photon_sum.h"
 #include "pipeline/channel_problem.h"
+#include "pipeline/end_layer.h"
 
 namespace knotlight {
 
@@ -36,8 +37,7 @@ class ParticularSolution {
   double radius_;
   double k_;
   std::array<std::unique_ptr<const PhotonSum>, 2> sums_;
-  // Null where nothing lies on the surface.
-  std::array<std::unique_ptr<const PhotonSum>, 2> layer_charges_, layer_dipoles_;
+  std::array<std::unique_ptr<const EndLayer>, 2> layers_;
 };
 
 }  // namespace knotlight

@@ -116,45 +116,7 @@ void raise_end(Charge& end, const TangentPlane& plane, double clear, double lamb
   end.strength *= std::exp(lambda * end.height);
 }
 
-// Above its plane; negative below.
-double height_of(const PointSources& sources, Eigen::Index i) {
-  return (sources.positions.col(i) - sources.plane_points.col(i)).dot(sources.plane_normals.col(i));
-}
-
 }  // namespace
-
-SurfaceLayers surface_layers(const PointSources& sources, double lambda) {
-  std::vector<Eigen::Index> raised;
-  for (Eigen::Index i = 0; i < sources.size(); ++i)
-    if (height_of(sources, i) > 0.0 && sources.clear_heights[i] >= 0.0) raised.push_back(i);
-  const auto n = static_cast<Eigen::Index>(raised.size());
-  SurfaceLayers layers;
-  for (PointSources* part : {&layers.charges, &layers.dipoles}) {
-    const Eigen::Index count = part == &layers.charges ? n : 2 * n;
-    part->positions.resize(3, count);
-    part->strengths.resize(count);
-    part->plane_points = Points::Zero(3, count);
-    part->plane_normals = Vec3::UnitZ().replicate(1, count);
-    part->clear_heights = Eigen::VectorXd::Constant(count, -1.0);
-  }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index from = raised[static_cast<std::size_t>(i)];
-    const Vec3 y = sources.positions.col(from);
-    const double arm = 0.5 * height_of(sources, from);
-    layers.charges.positions.col(i) = y;
-    layers.charges.strengths[i] = sources.strengths[from];
-    // Over a plane, exp(-lambda z)/(2 lambda) at z = h -+ arm: their difference has the factor
-    // sinh(lambda arm)/(lambda arm), which is taken out again.
-    const double x = lambda * arm;
-    const double pole = sources.strengths[from] / (2.0 * arm) * (x > 0.0 ? x / std::sinh(x) : 1.0);
-    for (const int sign : {-1, 1}) {
-      const Eigen::Index column = 2 * i + (sign + 1) / 2;
-      layers.dipoles.positions.col(column) = y + sign * arm * sources.plane_normals.col(from);
-      layers.dipoles.strengths[column] = -sign * pole;
-    }
-  }
-  return layers;
-}
 
 PointSources photon_sources(const ChannelProblem& p, int half) {
   const double k = p.coefficients.k;

@@ -18,15 +18,4 @@ namespace knotlight {
 // Robin image as stay clear of the body's surface (tangent_planes.h).
 PointSources photon_sources(const ChannelProblem& problem, int half);
 
-// The density of the layers on the surface for which charges above it stand (flights' ends, g !=
-// 0). A layer of density sigma is the Robin data k sigma. A charge at height h above a plane gives
-// the normal derivative sigma / 2 on the plane below: its own derivative along the normal at the
-// point, or along its own normal (dipoles along it). On a curved surface one is too small and the
-// other too large, by 1/(lambda R) each at the most, and their mean is right: sigma = the normal
-// derivative of `charges` + the value of `dipoles`.
-struct SurfaceLayers {
-  PointSources charges, dipoles;  // without images
-};
-SurfaceLayers surface_layers(const PointSources& sources, double lambda);
-
 }  // namespace knotlight

@@ -85,6 +85,7 @@ TEST(SolveScene, WhiteFurnaceAroundATorus) {
   PreparedScene prepared = lit_ball({0.0, 20.0, 0.0, 1.0, 0.0}, settings(400'000, 60));
   prepared.scene.objects[0].shape = test::torus_mesh(1.0, 0.45, 64, 32);
   prepared.scene.solver.method = Method::grid;
+  prepared.scene.solver.returning_light = true;
   prepared.scene.lights = {EnvironmentLight{Spectrum::Ones(), nullptr}};
   prepared.caster =
       std::make_unique<RayCaster>(std::vector<const Shape*>{&prepared.scene.objects[0].shape});

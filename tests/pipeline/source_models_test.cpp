@@ -164,6 +164,7 @@ TEST(SourceModels, TooLittleToGoByIsNotTrusted) {
   torus.scene.objects[0].shape = test::torus_mesh(1.0, 0.45, 32, 16);
   torus = prepare_scene(std::move(torus.scene));
   torus.scene.solver.photons = 100;
+  torus.scene.solver.returning_light = true;
   EXPECT_FALSE(solve(torus).report.failures.empty());
 }
 
