@@ -15,24 +15,14 @@ namespace {
 // Random points per knot of blue noise: with more the smallest distance grows by a per cent or two.
 constexpr std::size_t candidates_per_knot = 16;
 
-SurfaceKnots columns(const std::vector<SurfacePoint>& points) {
-  SurfaceKnots knots{Points(3, static_cast<Eigen::Index>(points.size())),
-                     Points(3, static_cast<Eigen::Index>(points.size()))};
-  for (Eigen::Index i = 0; i < knots.points.cols(); ++i) {
-    knots.points.col(i) = points[static_cast<std::size_t>(i)].position;
-    knots.normals.col(i) = points[static_cast<std::size_t>(i)].normal;
-  }
-  return knots;
-}
-
-SurfaceKnots thinned(const SurfaceKnots& knots, std::size_t count) {
-  if (static_cast<std::size_t>(knots.points.cols()) <= count) return knots;
-  const std::vector<Eigen::Index> kept = farthest_points(knots.points, count);
-  return {knots.points(Eigen::all, kept), knots.normals(Eigen::all, kept)};
+SurfaceSamples thinned(const SurfaceSamples& knots, std::size_t count) {
+  if (static_cast<std::size_t>(knots.positions.cols()) <= count) return knots;
+  const std::vector<Eigen::Index> kept = farthest_points(knots.positions, count);
+  return {knots.positions(Eigen::all, kept), knots.normals(Eigen::all, kept)};
 }
 
 // Every vertex that a triangle uses, once, with its smooth normal.
-SurfaceKnots mesh_vertices(const TriangleMesh& mesh) {
+SurfaceSamples mesh_vertices(const TriangleMesh& mesh) {
   constexpr double all_facets = -1.0;  // cosine that no edge is sharper than
   const std::vector<Vec3> corner_normals = smooth_corner_normals(mesh, all_facets);
   std::vector<bool> used(mesh.vertices.size(), false);
@@ -85,7 +75,7 @@ std::vector<Vec3> icosahedron_directions(int n) {
   return directions;
 }
 
-SurfaceKnots sphere_vertices(const Sphere& sphere, std::size_t count) {
+SurfaceSamples sphere_vertices(const Sphere& sphere, std::size_t count) {
   const double exact = std::sqrt((static_cast<double>(count) - 2.0) / 10.0);
   const auto vertices = [](double n) { return 10.0 * n * n + 2.0; };
   double n = std::max(1.0, std::floor(exact));
@@ -99,8 +89,8 @@ SurfaceKnots sphere_vertices(const Sphere& sphere, std::size_t count) {
 
 }  // namespace
 
-SurfaceKnots surface_knots(const Shape& shape, KnotLayout layout, std::size_t count,
-                           std::uint64_t seed) {
+SurfaceSamples surface_knots(const Shape& shape, KnotLayout layout, std::size_t count,
+                             std::uint64_t seed) {
   switch (layout) {
     case KnotLayout::vertices:
       if (const auto* mesh = std::get_if<TriangleMesh>(&shape))

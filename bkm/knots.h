@@ -12,11 +12,6 @@
 
 namespace knotlight {
 
-struct SurfaceKnots {
-  Points points;   // 3 x N
-  Points normals;  // 3 x N, outward unit
-};
-
 // `count` knots on the surface by the given layout; the same for the same seed.
 //   vertices    those of a mesh, thinned out to `count` if there are more, all if there are fewer;
 //               their normals are the mean of the facets' around, weighted by angle. Of a sphere
@@ -24,8 +19,8 @@ struct SurfaceKnots {
 //               `count` as can be
 //   stratified, jittered   centres or random points of strata of equal area (core/shape.h)
 //   blue_noise  of 16 random points for each knot those that lie furthest from each other
-SurfaceKnots surface_knots(const Shape& shape, KnotLayout layout, std::size_t count,
-                           std::uint64_t seed);
+SurfaceSamples surface_knots(const Shape& shape, KnotLayout layout, std::size_t count,
+                             std::uint64_t seed);
 
 // Indices of `count` of the points, each the one furthest from those before it; the first is point
 // 0, and of equals the first. Their smallest distance is at least half of the largest that any

@@ -61,24 +61,28 @@ IterationResult solve_fixed_point(const LinearMap& C, const Eigen::VectorXd& d, 
 
 }  // namespace
 
-LocalField::LocalField(std::shared_ptr<const PatchTree> tree, BodyQueries body, int degree,
-                       double lambda, std::vector<Eigen::VectorXd> beta)
+LocalField::LocalField(std::shared_ptr<const PatchTree> tree, BodyQueries body, Waves waves,
+                       Eigen::VectorXd beta)
     : tree_(std::move(tree)),
       body_(std::move(body)),
-      degree_(degree),
-      lambda_(lambda),
+      waves_(std::move(waves)),
       beta_(std::move(beta)) {}
 
 double LocalField::value(const Vec3& x) const {
-  const auto p = static_cast<std::size_t>(tree_->owner(x, body_));
-  const Patch& patch = tree_->patches()[p];
-  return SphericalWaves(degree_, lambda_, patch.radius).sum(x - patch.center, beta_[p]);
+  const std::ptrdiff_t p = tree_->owner(x, body_);
+  const auto patch = static_cast<std::size_t>(p);
+  const SphericalWaves& waves = (*waves_)[patch];
+  return waves.sum(x - tree_->patches()[patch].center,
+                   beta_.segment(p * waves.size(), waves.size()));
 }
 
-Vec3 LocalField::gradient(const Vec3& x) const {
-  const auto p = static_cast<std::size_t>(tree_->owner(x, body_));
-  const Patch& patch = tree_->patches()[p];
-  return SphericalWaves(degree_, lambda_, patch.radius).gradient(x - patch.center, beta_[p]);
+double LocalField::robin(const Vec3& x, const Vec3& n, double k) const {
+  const std::ptrdiff_t p = tree_->owner(x, body_);
+  const auto patch = static_cast<std::size_t>(p);
+  const SphericalWaves& waves = (*waves_)[patch];
+  Eigen::VectorXd row(waves.size());
+  waves.robin(x - tree_->patches()[patch].center, n, k, row);
+  return row.dot(beta_.segment(p * waves.size(), waves.size()));
 }
 
 LocalBkmSolver::LocalBkmSolver(std::shared_ptr<const PatchTree> tree, const BodyQueries& body,
@@ -86,52 +90,52 @@ LocalBkmSolver::LocalBkmSolver(std::shared_ptr<const PatchTree> tree, const Body
                                const Workers& workers)
     : tree_(std::move(tree)),
       options_(options),
-      lambda_(lambda),
       size_((options.degree + 1) * (options.degree + 1)),
       systems_(tree_->patches().size()) {
-  workers.for_chunks(systems_.size(), patches_per_chunk,
-                     [&](std::size_t, std::size_t begin, std::size_t end) {
-                       for (std::size_t i = begin; i < end; ++i) factor(i, body, k);
-                     });
+  auto waves = std::make_shared<std::vector<SphericalWaves>>();
+  waves->reserve(systems_.size());
+  for (const Patch& patch : tree_->patches())
+    waves->emplace_back(options.degree, lambda, patch.radius);
+  waves_ = std::move(waves);
+  for_patches(workers, [&](std::size_t i) { factor(i, body, k); });
 }
 
 void LocalBkmSolver::factor(std::size_t index, const BodyQueries& body, double k) {
   const SpreadKnots& knots = tree_->knots();
   const Patch& patch = tree_->patches()[index];
   System& s = systems_[index];
-  const SphericalWaves waves(options_.degree, lambda_, patch.radius);
+  const SphericalWaves& waves = (*waves_)[index];
   const auto m = static_cast<Eigen::Index>(patch.knots.size());
   const auto a = static_cast<Eigen::Index>(patch.joints.size());
   Eigen::MatrixXd rows(size_, m + a);  // transposed: a row is contiguous
-  s.weights.resize(m + a);
+  Eigen::VectorXd weights(m + a);      // of the rows
   // u + k du/dn is (1 + k/h) times as large as u where u changes over the patch's radius h.
   const double robin_weight = std::sqrt(patch.knot_area) / (1.0 + k / patch.radius);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index knot = patch.knots[static_cast<std::size_t>(i)];
     waves.robin(knots.positions.col(knot) - patch.center, knots.normals.col(knot), k, rows.col(i));
-    s.weights[i] = robin_weight;
+    weights[i] = robin_weight;
   }
   s.neighbours.resize(static_cast<std::size_t>(a));
   s.neighbour_rows.resize(size_, a);
   for (Eigen::Index i = 0; i < a; ++i) {
     const Vec3& x = patch.joints[static_cast<std::size_t>(i)];
     waves.values(x - patch.center, rows.col(m + i));
-    s.weights[m + i] = std::sqrt(patch.joint_area);
+    weights[m + i] = std::sqrt(patch.joint_area);
     const std::ptrdiff_t owner = tree_->owner(x, body);
     s.neighbours[static_cast<std::size_t>(i)] = owner;
     const Patch& other = tree_->patches()[static_cast<std::size_t>(owner)];
-    SphericalWaves(options_.degree, lambda_, other.radius)
-        .values(x - other.center, s.neighbour_rows.col(i));
+    (*waves_)[static_cast<std::size_t>(owner)].values(x - other.center, s.neighbour_rows.col(i));
   }
   s.rows = rows.transpose();
   // Pseudo-inverse through the eigenvalues of the normal matrix, singular values squared.
-  const Eigen::MatrixXd weighted = rows * s.weights.asDiagonal();
+  const Eigen::MatrixXd weighted = rows * weights.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(weighted * weighted.transpose());
   const double largest = eigen.eigenvalues().maxCoeff();
   const Eigen::VectorXd inverted = eigen.eigenvalues().unaryExpr(
       [&](double e) { return e > options_.cut * options_.cut * largest ? 1.0 / e : 0.0; });
   s.inverse = eigen.eigenvectors() * inverted.asDiagonal() *
-              (eigen.eigenvectors().transpose() * weighted) * s.weights.asDiagonal();
+              (eigen.eigenvectors().transpose() * weighted) * weights.asDiagonal();
 }
 
 Eigen::VectorXd LocalBkmSolver::joint_values(const System& s, const Eigen::VectorXd& beta) const {
@@ -181,10 +185,7 @@ LocalSolution LocalBkmSolver::solve(const Eigen::VectorXd& g, const Workers& wor
 }
 
 LocalField LocalBkmSolver::field(const LocalSolution& solution, const BodyQueries& body) const {
-  std::vector<Eigen::VectorXd> beta(systems_.size());
-  for (std::size_t i = 0; i < beta.size(); ++i)
-    beta[i] = solution.beta.segment(static_cast<Eigen::Index>(i) * size_, size_);
-  return {tree_, body, options_.degree, lambda_, std::move(beta)};
+  return {tree_, body, waves_, solution.beta};
 }
 
 Eigen::VectorXd LocalBkmSolver::residuals(std::size_t patch, const LocalSolution& solution,

@@ -21,20 +21,21 @@ struct LocalBkmOptions {
 // A field of waves, one set per patch. Keeps the tree it was made on.
 class LocalField {
  public:
-  LocalField() = default;
-  LocalField(std::shared_ptr<const PatchTree> tree, BodyQueries body, int degree, double lambda,
-             std::vector<Eigen::VectorXd> beta);
+  using Waves = std::shared_ptr<const std::vector<SphericalWaves>>;  // one set per patch
+
+  // beta: coefficients of all patches, one patch after the other.
+  LocalField(std::shared_ptr<const PatchTree> tree, BodyQueries body, Waves waves,
+             Eigen::VectorXd beta);
 
   double value(const Vec3& x) const;
-  Vec3 gradient(const Vec3& x) const;
-  const std::vector<Eigen::VectorXd>& coefficients() const { return beta_; }
+  // u + k du/dn at x with unit vector n; k: length.
+  double robin(const Vec3& x, const Vec3& n, double k) const;
 
  private:
   std::shared_ptr<const PatchTree> tree_;
   BodyQueries body_;
-  int degree_ = 0;
-  double lambda_ = 0.0;
-  std::vector<Eigen::VectorXd> beta_;
+  Waves waves_;
+  Eigen::VectorXd beta_;
 };
 
 struct LocalSolution {
@@ -87,7 +88,7 @@ class LocalBkmSolver {
 
   std::shared_ptr<const PatchTree> tree_;
   LocalBkmOptions options_;
-  double lambda_;
+  LocalField::Waves waves_;
   Eigen::Index size_;  // unknowns per patch
   std::vector<System> systems_;
 };

@@ -15,6 +15,23 @@ double entering_irradiance(const Scene& scene, const RayCaster& caster, int chan
   return mean_irradiance(scene, caster, at.position, at.normal, rays, rng, ior)[channel];
 }
 
+Eigen::VectorXd entering_irradiances(const Scene& scene, const RayCaster& caster, int channel,
+                                     std::uint32_t object, const SurfaceSamples& at, int rays,
+                                     std::uint64_t seed, const Workers& workers) {
+  Eigen::VectorXd values(at.positions.cols());
+  workers.for_chunks(static_cast<std::size_t>(values.size()), points_per_chunk,
+                     [&](std::size_t, std::size_t begin, std::size_t end) {
+                       for (std::size_t i = begin; i < end; ++i) {
+                         const auto column = static_cast<Eigen::Index>(i);
+                         Rng rng(seed, Stream::irradiance_rays, i);
+                         values[column] = entering_irradiance(
+                             scene, caster, channel, object,
+                             {at.positions.col(column), at.normals.col(column)}, rays, rng);
+                       }
+                     });
+  return values;
+}
+
 std::vector<IrradianceSample> sample_irradiances(const Scene& scene, const RayCaster& caster,
                                                  int channel, std::uint32_t object,
                                                  std::size_t count, int rays, std::uint64_t seed,

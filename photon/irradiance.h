@@ -22,6 +22,12 @@ struct IrradianceSample {
 double entering_irradiance(const Scene& scene, const RayCaster& caster, int channel,
                            std::uint32_t object, const SurfacePoint& at, int rays, Rng& rng);
 
+// The same at N points, W/length^2 each; point i draws from stream i of the seed. Same bits for any
+// number of workers.
+Eigen::VectorXd entering_irradiances(const Scene& scene, const RayCaster& caster, int channel,
+                                     std::uint32_t object, const SurfaceSamples& at, int rays,
+                                     std::uint64_t seed, const Workers& workers);
+
 // `count` samples, one in each stratum of equal area, each from `rays` rays. `replicate` gives
 // independent sets under one seed. Same bits for any number of workers.
 std::vector<IrradianceSample> sample_irradiances(const Scene& scene, const RayCaster& caster,

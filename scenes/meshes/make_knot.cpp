@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "core/file_io.h"
 #include "core/mesh.h"
+#include "core/ply_writer.h"
 
 namespace {
 
@@ -124,26 +123,6 @@ double strand_distance(const std::vector<double>& parameters, double length) {
   return least;
 }
 
-// Binary little-endian PLY; like the rest of the program, for little-endian machines.
-void write_ply(const std::string& path, const TriangleMesh& mesh) {
-  std::ofstream file(path, std::ios::binary);
-  file << fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment trefoil knot by make_knot\n"
-      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
-      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      mesh.vertices.size(), mesh.triangles.size());
-  const auto put = [&file](const auto& value) {
-    file.write(reinterpret_cast<const char*>(&value), sizeof(value));
-  };
-  for (const Vec3& v : mesh.vertices)
-    for (const double x : v) put(static_cast<float>(x));
-  for (const knotlight::Triangle& t : mesh.triangles) {
-    put(std::uint8_t{3});
-    for (const std::uint32_t v : t) put(v);
-  }
-  if (!file.flush()) throw std::runtime_error("cannot write " + path);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -163,7 +142,7 @@ int main(int argc, char** argv) {
     TriangleMesh mesh = tube(parameters);
     const Vec3 center = bounds(mesh).center();
     for (Vec3& v : mesh.vertices) v -= center;
-    knotlight::write_atomically(argv[1], [&](const std::string& path) { write_ply(path, mesh); });
+    knotlight::write_ply(argv[1], mesh, "trefoil knot by make_knot");
     const Vec3 size = bounds(mesh).hi - bounds(mesh).lo;
     fmt::print(
         "{} vertices, {} triangles, size {:.3f} x {:.3f} x {:.3f}, length {:.4f}, volume "

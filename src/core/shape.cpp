@@ -159,6 +159,16 @@ double volume(const Shape& shape) {
   return 4.0 / 3.0 * pi * r * r * r;
 }
 
+SurfaceSamples columns(const std::vector<SurfacePoint>& points) {
+  const auto n = static_cast<Eigen::Index>(points.size());
+  SurfaceSamples samples{Points(3, n), Points(3, n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    samples.positions.col(i) = points[static_cast<std::size_t>(i)].position;
+    samples.normals.col(i) = points[static_cast<std::size_t>(i)].normal;
+  }
+  return samples;
+}
+
 std::vector<SurfacePoint> stratified_surface_points(const Shape& shape, std::size_t count,
                                                     bool jitter, std::uint64_t seed,
                                                     Stream purpose) {

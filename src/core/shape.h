@@ -21,6 +21,13 @@ struct SurfacePoint {
   Vec3 normal = Vec3::UnitZ();
 };
 
+// The same of N points: positions and outward unit normals, 3 x N each.
+struct SurfaceSamples {
+  Points positions;
+  Points normals;
+};
+SurfaceSamples columns(const std::vector<SurfacePoint>& points);
+
 Bounds bounds(const Shape& shape);
 // A sphere that holds all the shapes, about the centre of the box around them; the exact one for a
 // single sphere. For meshes not always the smallest.

@@ -35,7 +35,7 @@ CellSize cell_size_for(const Shape& shape, double sigma_tr, double sigma_t, doub
   const double budget = std::max(std::cbrt(volume(shape) / most),
                                  std::cbrt((box.hi - box.lo).prod() / (box_share * most)));
   const double h = std::max(rule, budget);
-  return {h, h * sigma_tr, rule, budget > rule};
+  return {h, h * sigma_tr, rule};
 }
 
 }  // namespace knotlight

@@ -11,7 +11,8 @@ struct CellSize {
   double h = 0.0;           // length
   double h_sigma_tr = 0.0;  // in transport mean free paths; the error grows as its square
   double wanted = 0.0;      // by the rule, without the budget; length
-  bool limited = false;     // the budget, not the rule, has set h
+  // Whether the budget, not the rule, has set h.
+  bool limited() const { return h > wanted; }
 };
 
 // h = sqrt(tolerance / 0.01) min(0.5 / sigma_tr, 0.75 / sigma_t, size / 64): the field changes over

@@ -10,7 +10,6 @@ namespace {
 // Rays per knot and half to lights of some extent, with the model boundary_flux alone: a patch
 // averages over dozens of knots.
 constexpr int rays_per_knot = 64;
-constexpr std::size_t knots_per_chunk = 256;
 
 // Where two points count as one: nothing lies between them, and no ray has a direction there.
 constexpr double coincident = 1e-9;  // of the object's size
@@ -55,24 +54,17 @@ BodyQueries body_queries(const ChannelProblem& p) {
   return body;
 }
 
-BoundaryData boundary_data(const ChannelProblem& p, const ParticularSolution& particular,
-                           const Points& positions, const Points& normals, std::uint64_t seed) {
-  const ParticularValues up = particular.evaluate(positions, &normals, p.workers);
+BoundaryData boundary_data(const ChannelProblem& p, const ParticularValues& up,
+                           const SurfaceSamples& at, std::uint64_t seed) {
   BoundaryData data;
   for (std::size_t half = 0; half < 2; ++half) {
     data.g[half] =
         up.surface_data[half] - (up.value[half] + p.coefficients.k * up.normal_derivative[half]);
     if (p.light.model != SourceModel::boundary_flux) continue;
-    p.workers.for_chunks(
-        static_cast<std::size_t>(positions.cols()), knots_per_chunk,
-        [&](std::size_t, std::size_t begin, std::size_t end) {
-          for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
-            Rng rng(seed + half, Stream::irradiance_rays, static_cast<std::uint64_t>(i));
-            data.g[half][i] += p.coefficients.boundary_flux_data(
-                entering_irradiance(p.scene, p.caster, p.channel, p.object,
-                                    {positions.col(i), normals.col(i)}, rays_per_knot, rng));
-          }
-        });
+    const Eigen::VectorXd light = entering_irradiances(p.scene, p.caster, p.channel, p.object, at,
+                                                       rays_per_knot, seed + half, p.workers);
+    for (Eigen::Index i = 0; i < light.size(); ++i)
+      data.g[half][i] += p.coefficients.boundary_flux_data(light[i]);
   }
   return data;
 }

@@ -19,11 +19,11 @@ SpreadKnots spread_surface_knots(const Shape& shape, std::size_t count, std::uin
 BodyQueries body_queries(const ChannelProblem& problem);
 
 // The right-hand side g of u + k du/dn = g that the particular solution leaves to the homogeneous
-// one, for each half of the light, at points with outward normals (3 x N).
+// one, for each half of the light. particular: its values there, with normal derivatives.
 struct BoundaryData {
   std::array<Eigen::VectorXd, 2> g;
 };
-BoundaryData boundary_data(const ChannelProblem& problem, const ParticularSolution& particular,
-                           const Points& positions, const Points& normals, std::uint64_t seed);
+BoundaryData boundary_data(const ChannelProblem& problem, const ParticularValues& particular,
+                           const SurfaceSamples& at, std::uint64_t seed);
 
 }  // namespace knotlight

@@ -25,6 +25,7 @@ constexpr double clear_of_ends_in_k = 0.25;
 // nearly always: 1.3 standard deviations of an rms over hundreds of independent places.
 constexpr double noise_factor = 1.3;
 
+constexpr double residual_share = 0.5;  // of the tolerance
 // What a residual does to the field is known next to a plane; thin limbs smooth it less: by a
 // quarter on bunny and knot.
 constexpr double thin_limb_factor = 1.25;
@@ -35,15 +36,36 @@ double smoothing_bias_of(const ChannelProblem& p) {
   return smoothing_bias * p.medium.sigma_t() * p.medium.sigma_t() + small_body_bias / (R * R);
 }
 
+// Tree code and smoothing for a solution of the tolerance that the scene asks for.
+PhotonSumOptions particular_options(const ChannelProblem& p) {
+  PhotonSumOptions options;
+  const double share = smoothing_share * p.settings.tolerance;
+  options.softening = std::sqrt(share / smoothing_bias_of(p));
+  for (const IncidentHalf& half : p.light.halves) {
+    if (half.ends.empty()) continue;
+    const double between = std::sqrt(surface_area(p.shape) / static_cast<double>(half.ends.size()));
+    options.softening = std::min(
+        {options.softening, clear_of_ends * between, clear_of_ends_in_k * p.coefficients.k});
+  }
+  return options;
+}
+
 }  // namespace
 
-BoundaryChecks boundary_checks(const ChannelProblem& p, const ParticularSolution& particular) {
-  BoundaryChecks checks;
+BoundaryStart boundary_start(const ChannelProblem& p) {
+  BoundaryStart start;
+  start.particular = std::make_shared<const ParticularSolution>(p, particular_options(p));
+  BoundaryChecks& checks = start.checks;
   checks.at = columns(
       stratified_surface_points(p.shape, check_points, true, p.seed + 3, Stream::check_points));
-  checks.particular = particular.evaluate(checks.at.positions, &checks.at.normals, p.workers);
-  checks.data = boundary_data(p, particular, checks.at.positions, checks.at.normals, p.seed + 3);
-  return checks;
+  checks.particular =
+      start.particular->evaluate(checks.at.positions, &checks.at.normals, p.workers);
+  checks.data = boundary_data(p, checks.particular, checks.at, p.seed + 3);
+  return start;
+}
+
+double residual_wanted(const ChannelProblem& p) {
+  return residual_share * p.settings.tolerance;
 }
 
 BoundaryVerdict judge_boundary(const ChannelProblem& p, const BoundaryChecks& checks,
@@ -76,19 +98,6 @@ BoundaryVerdict judge_boundary(const ChannelProblem& p, const BoundaryChecks& ch
   verdict.largest_residual =
       relative(0.5 * (residual[0] + residual[1]).cwiseAbs().maxCoeff(), verdict.scale);
   return verdict;
-}
-
-PhotonSumOptions particular_options(const ChannelProblem& p) {
-  PhotonSumOptions options;
-  const double share = smoothing_share * p.settings.tolerance;
-  options.softening = std::sqrt(share / smoothing_bias_of(p));
-  for (const IncidentHalf& half : p.light.halves) {
-    if (half.ends.empty()) continue;
-    const double between = std::sqrt(surface_area(p.shape) / static_cast<double>(half.ends.size()));
-    options.softening = std::min(
-        {options.softening, clear_of_ends * between, clear_of_ends_in_k * p.coefficients.k});
-  }
-  return options;
 }
 
 ChannelSolution boundary_solution(const ChannelProblem& p,

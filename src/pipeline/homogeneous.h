@@ -2,6 +2,7 @@
 // points that are not knots, noise apart from solver error, and the field handed on.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -24,7 +25,31 @@ struct BoundaryChecks {
   ParticularValues particular;
   BoundaryData data;
 };
-BoundaryChecks boundary_checks(const ChannelProblem& problem, const ParticularSolution& particular);
+
+// What every boundary method starts from.
+struct BoundaryStart {
+  std::shared_ptr<const ParticularSolution> particular;
+  BoundaryChecks checks;
+};
+BoundaryStart boundary_start(const ChannelProblem& problem);
+
+// What may be left of the boundary condition, as BoundaryVerdict::robin_residual: half of the
+// tolerance, noise takes the other half.
+double residual_wanted(const ChannelProblem& problem);
+
+// Systems factored for an earlier light, and what they left of it.
+template <class Factors>
+struct KeptFactors {
+  // More than this times what is wanted, or what they left before, asks for new ones.
+  static constexpr double as_good_as_before = 1.2;
+
+  std::shared_ptr<const Factors> factors;
+  double residual;
+
+  bool serve(double residual_now, double wanted) const {
+    return residual_now <= as_good_as_before * std::max(residual, wanted);
+  }
+};
 
 struct BoundaryVerdict {
   double scale = 0.0;             // rms of U_d over the surface
@@ -35,9 +60,6 @@ struct BoundaryVerdict {
 };
 BoundaryVerdict judge_boundary(const ChannelProblem& problem, const BoundaryChecks& checks,
                                const std::array<HomogeneousPart, 2>& halves);
-
-// Tree code and smoothing for a solution of the tolerance that the scene asks for.
-PhotonSumOptions particular_options(const ChannelProblem& problem);
 
 // The solution of a boundary method: U_d = mean of the particular halves + u_h, with its errors.
 ChannelSolution boundary_solution(const ChannelProblem& problem,

@@ -55,7 +55,6 @@ ParticularValues ParticularSolution::evaluate(const Points& x, const Points* nor
     PhotonSumValues sum = sums_[half]->evaluate(x, normals, workers);
     result.value[half] = std::move(sum.value);
     result.normal_derivative[half] = std::move(sum.normal_derivative);
-    result.error_estimate = std::max(result.error_estimate, sum.error_estimate);
     if (normals == nullptr) continue;
     result.surface_data[half] = k_ * layers_[half]->density(x, *normals, workers);
   }

@@ -19,7 +19,6 @@ struct ParticularValues {
   // Right-hand side of the Robin condition that belongs to sources on the surface (flights' ends, g
   // != 0), W/(length^2 sr); empty without normals.
   std::array<Eigen::VectorXd, 2> surface_data;
-  double error_estimate = 0.0;  // of any value, by the tree code
 };
 
 class ParticularSolution {

@@ -10,16 +10,6 @@ constexpr std::size_t most_tries =
 
 }  // namespace
 
-SurfaceSamples columns(const std::vector<SurfacePoint>& points) {
-  const auto n = static_cast<Eigen::Index>(points.size());
-  SurfaceSamples samples{Points(3, n), Points(3, n)};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    samples.positions.col(i) = points[static_cast<std::size_t>(i)].position;
-    samples.normals.col(i) = points[static_cast<std::size_t>(i)].normal;
-  }
-  return samples;
-}
-
 Points volume_points(const Shape& shape, const RayCaster& caster, std::uint32_t object,
                      std::size_t count, std::uint64_t seed) {
   const Bounds box = bounds(shape);

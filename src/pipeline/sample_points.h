@@ -8,13 +8,6 @@
 
 namespace knotlight {
 
-// Positions (3 x N) and outward normals (3 x N) of surface points.
-struct SurfaceSamples {
-  Points positions;
-  Points normals;
-};
-SurfaceSamples columns(const std::vector<SurfacePoint>& points);
-
 // `count` points uniform in the object's volume (rejection from its bounding box); fewer, perhaps
 // none, if the object fills next to nothing of its box.
 Points volume_points(const Shape& shape, const RayCaster& caster, std::uint32_t object,

@@ -39,17 +39,6 @@ struct RightHandSides {
 
 constexpr int rays_per_knot = 256;  // to lights of some extent: no neighbour evens out its noise
 
-// Light that enters at each point, W/length^2.
-Eigen::VectorXd entering(const SurfaceSamples& at, const ChannelProblem& p, std::uint64_t stream) {
-  Eigen::VectorXd values(at.positions.cols());
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    Rng rng(p.seed + stream, Stream::irradiance_rays, static_cast<std::uint64_t>(i));
-    values[i] = entering_irradiance(p.scene, p.caster, p.channel, p.object,
-                                    {at.positions.col(i), at.normals.col(i)}, rays_per_knot, rng);
-  }
-  return values;
-}
-
 // The thesis's irradiance sampling: the light that enters at a knot becomes the value
 // exp(-sigma_t l) E / (4 pi) of an isotropic source at the knot l = 1/sigma_tr below it, and the
 // source is zero at all other knots [V09 6.21-6.24]: f = -3 sigma_tr times that value.
@@ -78,7 +67,9 @@ RightHandSides right_hand_sides(const Places& places, const VolumePhotonMap (&ma
     terms = source_terms(places.surface.positions, places.surface.normals, places.interior,
                          maps[half], p.medium, options, p.caster, p.object, p.workers);
     if (p.light.model == SourceModel::photon_map) continue;
-    const Eigen::VectorXd light = entering(places.surface, p, half);
+    const Eigen::VectorXd light =
+        entering_irradiances(p.scene, p.caster, p.channel, p.object, places.surface, rays_per_knot,
+                             p.seed + half, p.workers);
     if (p.light.model == SourceModel::boundary_flux)
       for (Eigen::Index i = 0; i < light.size(); ++i)
         terms.g[i] += p.coefficients.boundary_flux_data(light[i]);
@@ -115,21 +106,21 @@ double largest(const Eigen::VectorXd& v) {
 // Boundary and interior knots [V09 ch. 7].
 Places knot_places(const ChannelProblem& p, std::size_t count, std::size_t& dropped) {
   const BkmThesisSettings& settings = p.settings.thesis;
-  const SurfaceKnots surface = surface_knots(p.shape, settings.knot_layout, count, p.seed);
+  SurfaceSamples surface = surface_knots(p.shape, settings.knot_layout, count, p.seed);
   const auto inside = [&](const Vec3& x) { return p.caster.inside(x, p.object); };
   InteriorKnots interior;
   if (settings.interior_knots == InteriorLayout::grid) {
     // As many as two layers have.
-    interior = grid_knots(surface.points, volume(p.shape),
-                          2 * static_cast<std::size_t>(surface.points.cols()), inside);
+    interior = grid_knots(surface.positions, volume(p.shape),
+                          2 * static_cast<std::size_t>(surface.positions.cols()), inside);
     dropped = 0;  // the corners of the box around the object are no knots that it lacks
   } else {
     std::vector<double> depths = layer_depths(settings.interior_knots);
     for (double& depth : depths) depth /= p.medium.sigma_tr();
-    interior = interior_knots(surface.points, surface.normals, depths, inside);
+    interior = interior_knots(surface.positions, surface.normals, depths, inside);
     dropped = interior.dropped;
   }
-  return {{surface.points, surface.normals}, interior.points};
+  return {std::move(surface), interior.points};
 }
 
 // Exponents of the two multiquadrics where the scene gives none: Hardy's, and that of the thesis's

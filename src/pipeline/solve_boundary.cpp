@@ -7,8 +7,6 @@
 namespace knotlight {
 namespace {
 
-// bkm will do if it leaves no more than this of the tolerance: noise takes the rest.
-constexpr double residual_share = 0.5;
 // Beyond so many tolerances the run would not be trusted: the grid, its cells larger than wanted,
 // may still do better.
 constexpr double tolerances_accepted = 3.0;
@@ -29,11 +27,12 @@ ChannelSolution better(ChannelSolution a, ChannelSolution b) {
 }  // namespace
 
 ChannelSolution solve_by_boundary(const ChannelProblem& p) {
-  ChannelSolution best = solve_by_bkm(p);
-  const double tolerance = p.settings.tolerance;
-  if (best.numerical_error > residual_share * tolerance)
-    best = better(std::move(best), solve_by_lbkm(p));
-  if (estimate(best) <= tolerances_accepted * tolerance && best.failures.empty()) return best;
+  const BoundaryStart start = boundary_start(p);
+  ChannelSolution best = solve_by_bkm(p, start);
+  if (best.numerical_error > residual_wanted(p))
+    best = better(std::move(best), solve_by_lbkm(p, start));
+  if (estimate(best) <= tolerances_accepted * p.settings.tolerance && best.failures.empty())
+    return best;
   const ObjectGrids grids =
       make_grids(p.scene.objects[p.object], p.scene.channels, p.settings, p.workers);
   ChannelProblem on_grid = p;

@@ -18,9 +18,6 @@ constexpr double cut = 1e-12;
 // Exterior sources at this many knot spacings keep full rank and still resolve what the knots do
 // (docs/results/stability.md).
 constexpr double source_distance = 3.0;
-constexpr double misfit_allowed = 0.5;  // of the tolerance
-// A system made for one light is taken for the next if it leaves no more of it than this.
-constexpr double as_good_as_before = 1.2;
 constexpr double worth_doubling =
     0.7;  // the residual must fall to this for knots to be doubled again
 
@@ -67,12 +64,6 @@ struct GlobalFactors {
 
 using SharedFactors = std::shared_ptr<const GlobalFactors>;
 
-// What an earlier light needed, and what it left then.
-struct KeptFactors {
-  SharedFactors factors;
-  double residual;
-};
-
 SharedFactors factor(const ChannelProblem& p, GlobalBasis basis, std::size_t count) {
   SpreadKnots knots = spread_surface_knots(p.shape, rows_per_knot * count, p.seed);
   const auto n = static_cast<Eigen::Index>(count);
@@ -93,19 +84,20 @@ struct Round {
   double residual;
 };
 
-Round solve_on(const GlobalFactors& factors, GlobalBasis basis, const BoundaryChecks& checks,
-               const std::shared_ptr<const ParticularSolution>& particular,
+Round solve_on(const GlobalFactors& factors, GlobalBasis basis, const BoundaryStart& start,
                const ChannelProblem& p) {
   const GlobalBkmSolver& solver = factors.solver;
   const double k = p.coefficients.k;
-  const BoundaryData data =
-      boundary_data(p, *particular, factors.knots.positions, factors.knots.normals, p.seed);
+  const SurfaceSamples at{factors.knots.positions, factors.knots.normals};
+  const BoundaryData data = boundary_data(
+      p, start.particular->evaluate(at.positions, &at.normals, p.workers), at, p.seed);
   const GlobalField halves[2] = {solver.solve(data.g[0]), solver.solve(data.g[1])};
   const BoundaryVerdict verdict =
-      judge_boundary(p, checks, {part(halves[0], k), part(halves[1], k)});
+      judge_boundary(p, start.checks, {part(halves[0], k), part(halves[1], k)});
   const GlobalField mean(basis, p.coefficients.lambda, solver.problem().centers,
                          0.5 * (halves[0].coefficients() + halves[1].coefficients()));
-  Round round{boundary_solution(p, particular, verdict, part(mean, k)), verdict.robin_residual};
+  Round round{boundary_solution(p, start.particular, verdict, part(mean, k)),
+              verdict.robin_residual};
   round.solution.method = method_of(basis);
   round.solution.figures.insert(
       round.solution.figures.end(),
@@ -121,25 +113,22 @@ Round solve_on(const GlobalFactors& factors, GlobalBasis basis, const BoundaryCh
   return round;
 }
 
-ChannelSolution solve_by_global(const ChannelProblem& p, GlobalBasis basis) {
-  const auto particular = std::make_shared<const ParticularSolution>(p, particular_options(p));
-  const BoundaryChecks checks = boundary_checks(p, *particular);
+ChannelSolution solve_by_global(const ChannelProblem& p, const BoundaryStart& start,
+                                GlobalBasis basis) {
   const std::size_t most = p.settings.knots.value_or(most_knots);
-  const double wanted = misfit_allowed * p.settings.tolerance;
+  const double wanted = residual_wanted(p);
   const FactorCache::Key key = p.factor_key(method_of(basis));
-  const auto kept = p.factors.find<KeptFactors>(key);
+  const auto kept = p.factors.find<KeptFactors<GlobalFactors>>(key);
   SharedFactors factors =
       kept ? kept->factors : factor(p, basis, p.settings.knots.value_or(first_knots));
 
-  Round best = solve_on(*factors, basis, checks, particular, p);
-  // Good enough for the light they were made for, and as good for this one.
-  if (kept && best.residual <= as_good_as_before * std::max(kept->residual, wanted))
-    return best.solution;
+  Round best = solve_on(*factors, basis, start, p);
+  if (kept && kept->serve(best.residual, wanted)) return best.solution;
   double before = best.residual;
   SharedFactors best_factors = factors;
   while (before > wanted && 2 * factors->count <= most) {
     factors = factor(p, basis, 2 * factors->count);
-    Round next = solve_on(*factors, basis, checks, particular, p);
+    Round next = solve_on(*factors, basis, start, p);
     const bool worthwhile = next.residual < worth_doubling * before;
     before = next.residual;
     if (next.residual < best.residual) {
@@ -148,18 +137,19 @@ ChannelSolution solve_by_global(const ChannelProblem& p, GlobalBasis basis) {
     }
     if (!worthwhile) break;
   }
-  p.factors.put(key, std::make_shared<const KeptFactors>(KeptFactors{best_factors, best.residual}));
+  p.factors.put(key, std::make_shared<const KeptFactors<GlobalFactors>>(
+                         KeptFactors<GlobalFactors>{best_factors, best.residual}));
   return best.solution;
 }
 
 }  // namespace
 
-ChannelSolution solve_by_bkm(const ChannelProblem& p) {
-  return solve_by_global(p, GlobalBasis::nonsingular_solutions);
+ChannelSolution solve_by_bkm(const ChannelProblem& p, const BoundaryStart& start) {
+  return solve_by_global(p, start, GlobalBasis::nonsingular_solutions);
 }
 
-ChannelSolution solve_by_mfs(const ChannelProblem& p) {
-  return solve_by_global(p, GlobalBasis::exterior_sources);
+ChannelSolution solve_by_mfs(const ChannelProblem& p, const BoundaryStart& start) {
+  return solve_by_global(p, start, GlobalBasis::exterior_sources);
 }
 
 }  // namespace knotlight

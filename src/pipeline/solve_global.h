@@ -2,13 +2,13 @@
 // boundary.
 #pragma once
 
-#include "pipeline/channel_problem.h"
+#include "pipeline/homogeneous.h"
 
 namespace knotlight {
 
 // Non-singular solutions about knots on the surface.
-ChannelSolution solve_by_bkm(const ChannelProblem& problem);
+ChannelSolution solve_by_bkm(const ChannelProblem& problem, const BoundaryStart& start);
 // Singular ones about points outside.
-ChannelSolution solve_by_mfs(const ChannelProblem& problem);
+ChannelSolution solve_by_mfs(const ChannelProblem& problem, const BoundaryStart& start);
 
 }  // namespace knotlight

@@ -19,22 +19,16 @@ constexpr double first_share = 0.25;
 constexpr std::size_t most_patches = 12'000;   // 1 GiB
 constexpr std::size_t knot_choices = 1 << 19;  // a leaf of the finest level still sees a few
 constexpr int most_rounds = 12;
-// The residual aimed at, as a share of the tolerance: noise takes the other half.
-constexpr double residual_wanted = 0.5;
 // Two rounds that leave more than this of the residual were not worth it: what is left is not
 // smooth (facets, sharp edges), and splitting patches will not resolve it.
 constexpr double worth_splitting = 0.85;
-// Patches made for one light are taken for the next if they leave no more of it than this.
-constexpr double as_good_as_before = 1.2;
 // The patches split are those with the largest misfits that together make up this share of the
 // squared misfit of all [Dör96].
 constexpr double share_split = 0.7;
 
 HomogeneousPart part(const LocalField& field, double k) {
   return {[field](const Vec3& x) { return field.value(x); },
-          [field, k](const Vec3& x, const Vec3& n) {
-            return field.value(x) + k * field.gradient(x).dot(n);
-          }};
+          [field, k](const Vec3& x, const Vec3& n) { return field.robin(x, n, k); }};
 }
 
 PatchTreeOptions first_patches(const ChannelProblem& p) {
@@ -55,12 +49,6 @@ struct LocalFactors {
   LocalBkmSolver solver;
 };
 using SharedFactors = std::shared_ptr<const LocalFactors>;
-
-// What an earlier light needed: patches split for it, and what it left then.
-struct KeptFactors {
-  SharedFactors factors;
-  double residual;
-};
 
 // On a tree as it is split, without patches yet.
 SharedFactors factor(std::shared_ptr<const SpreadKnots> knots,
@@ -94,10 +82,10 @@ class KnotData {
     std::vector<Eigen::Index> fresh;
     for (const Eigen::Index i : used)
       if (!known_[static_cast<std::size_t>(i)]) fresh.push_back(i);
-    const Points positions = knots_.positions(Eigen::all, fresh);
-    const Points normals = knots_.normals(Eigen::all, fresh);
+    const SurfaceSamples at{knots_.positions(Eigen::all, fresh), knots_.normals(Eigen::all, fresh)};
     const BoundaryData data =
-        boundary_data(problem_, particular_, positions, normals, problem_.seed + 8 * count);
+        boundary_data(problem_, particular_.evaluate(at.positions, &at.normals, problem_.workers),
+                      at, problem_.seed + 8 * count);
     for (std::size_t i = 0; i < fresh.size(); ++i) {
       known_[static_cast<std::size_t>(fresh[i])] = 1;
       for (std::size_t half = 0; half < 2; ++half)
@@ -165,20 +153,20 @@ struct Round {
 };
 
 Round solve_on(const LocalFactors& factors, KnotData& data, const BodyQueries& body,
-               const BoundaryChecks& checks,
-               const std::shared_ptr<const ParticularSolution>& particular,
-               const ChannelProblem& p) {
+               const BoundaryStart& start, const ChannelProblem& p) {
   const PatchTree& tree = *factors.tree;
   const LocalBkmSolver& solver = factors.solver;
   const double k = p.coefficients.k;
-  data.evaluate(solver.knots_used());
+  const std::vector<Eigen::Index> knots = solver.knots_used();
+  data.evaluate(knots);
   const LocalSolution halves[2] = {solver.solve(data.g[0], p.workers),
                                    solver.solve(data.g[1], p.workers)};
   const BoundaryVerdict verdict = judge_boundary(
-      p, checks, {part(solver.field(halves[0], body), k), part(solver.field(halves[1], body), k)});
+      p, start.checks,
+      {part(solver.field(halves[0], body), k), part(solver.field(halves[1], body), k)});
   LocalSolution mean = halves[0];
   mean.beta = 0.5 * (halves[0].beta + halves[1].beta);
-  Round round{boundary_solution(p, particular, verdict, part(solver.field(mean, body), k)),
+  Round round{boundary_solution(p, start.particular, verdict, part(solver.field(mean, body), k)),
               solver.misfit(halves[0], data.g[0], halves[1], data.g[1], p.workers),
               verdict.robin_residual};
   const double jumps = relative(jumps_at_surface(tree, round.misfit), verdict.scale);
@@ -190,7 +178,7 @@ Round solve_on(const LocalFactors& factors, KnotData& data, const BodyQueries& b
       round.solution.figures.end(),
       {{"patches", static_cast<double>(tree.patches().size())},
        {"unknowns", static_cast<double>(solver.unknowns())},
-       {"boundary_knots", static_cast<double>(solver.knots_used().size())},
+       {"boundary_knots", static_cast<double>(knots.size())},
        {"iterations", static_cast<double>(halves[0].iterations)},
        {"patch_jumps", jumps},
        {"largest_coefficient", relative(mean.beta.cwiseAbs().maxCoeff(), verdict.scale)}});
@@ -199,20 +187,16 @@ Round solve_on(const LocalFactors& factors, KnotData& data, const BodyQueries& b
 
 }  // namespace
 
-ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
-  const auto particular = std::make_shared<const ParticularSolution>(p, particular_options(p));
+ChannelSolution solve_by_lbkm(const ChannelProblem& p, const BoundaryStart& start) {
   const BodyQueries body = body_queries(p);
-  const BoundaryChecks checks = boundary_checks(p, *particular);
   const FactorCache::Key key = p.factor_key(Method::lbkm);
-  const auto kept = p.factors.find<KeptFactors>(key);
+  const auto kept = p.factors.find<KeptFactors<LocalFactors>>(key);
   SharedFactors factors = kept ? kept->factors : first_factors(body, p);
-  KnotData data(p, *particular, *factors->knots);
-  const double wanted = residual_wanted * p.settings.tolerance;
+  KnotData data(p, *start.particular, *factors->knots);
+  const double wanted = residual_wanted(p);
 
-  Round best = solve_on(*factors, data, body, checks, particular, p);
-  // Good enough for the light they were made for, and as good for this one.
-  if (kept && best.residual <= as_good_as_before * std::max(kept->residual, wanted))
-    return best.solution;
+  Round best = solve_on(*factors, data, body, start, p);
+  if (kept && kept->serve(best.residual, wanted)) return best.solution;
   SharedFactors best_factors = factors;
   std::vector<double> residuals{best.residual};
   LocalMisfit misfit = best.misfit;
@@ -224,7 +208,7 @@ ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
     auto finer = std::make_shared<PatchTree>(tree);
     for (const std::size_t leaf : leaves) finer->split(leaf);
     factors = factor(factors->knots, finer, body, p);
-    Round next = solve_on(*factors, data, body, checks, particular, p);
+    Round next = solve_on(*factors, data, body, start, p);
     misfit = next.misfit;
     residuals.push_back(next.residual);
     if (next.residual < best.residual) {
@@ -233,7 +217,8 @@ ChannelSolution solve_by_lbkm(const ChannelProblem& p) {
     }
     if (round > 2 && residuals.back() > worth_splitting * residuals[residuals.size() - 3]) break;
   }
-  p.factors.put(key, std::make_shared<const KeptFactors>(KeptFactors{best_factors, best.residual}));
+  p.factors.put(key, std::make_shared<const KeptFactors<LocalFactors>>(
+                         KeptFactors<LocalFactors>{best_factors, best.residual}));
   best.solution.figures.emplace_back("rounds", static_cast<double>(residuals.size()));
   return best.solution;
 }

@@ -1,10 +1,10 @@
 // `method: lbkm`: photons in closed form, and small boundary knot problems in overlapping patches.
 #pragma once
 
-#include "pipeline/channel_problem.h"
+#include "pipeline/homogeneous.h"
 
 namespace knotlight {
 
-ChannelSolution solve_by_lbkm(const ChannelProblem& problem);
+ChannelSolution solve_by_lbkm(const ChannelProblem& problem, const BoundaryStart& start);
 
 }  // namespace knotlight

@@ -84,11 +84,11 @@ ChannelSolution solve_by(Method method, const ChannelProblem& problem) {
     case Method::bkm_thesis:
       return solve_by_bkm_thesis(problem);
     case Method::bkm:
-      return solve_by_bkm(problem);
+      return solve_by_bkm(problem, boundary_start(problem));
     case Method::mfs:
-      return solve_by_mfs(problem);
+      return solve_by_mfs(problem, boundary_start(problem));
     case Method::lbkm:
-      return solve_by_lbkm(problem);
+      return solve_by_lbkm(problem, boundary_start(problem));
     case Method::grid:
       return solve_by_grid(problem);
     case Method::automatic:
@@ -127,12 +127,11 @@ Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
                             const Points& positions, const Points& normals, std::uint64_t seed) {
   Eigen::VectorXd values = channel.U_d(positions);
   if (channel.model != SourceModel::boundary_flux) return values;
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    Rng rng(seed, Stream::irradiance_rays, static_cast<std::uint64_t>(i));
-    values[i] -= DiffusionCoefficients::boundary_flux_U_ri(
-        entering_irradiance(scene, caster, channel_index, object,
-                            {positions.col(i), normals.col(i)}, rays_per_surface_point, rng));
-  }
+  const Eigen::VectorXd light =
+      entering_irradiances(scene, caster, channel_index, object, {positions, normals},
+                           rays_per_surface_point, seed, Workers(1));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] -= DiffusionCoefficients::boundary_flux_U_ri(light[i]);
   return values;
 }
 

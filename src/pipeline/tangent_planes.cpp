@@ -31,8 +31,9 @@ constexpr double least_step = 0.02;
 // Planes within a cell of this size, in k, share a height, and are content with less of it.
 constexpr double cell = 0.5;
 constexpr double shared_share = 0.75;
-// With less room than this, in k, heights change within a cell: each plane is asked for its own.
-constexpr double narrow = 1.0;
+// With less room than this, in extents of a cell's planes, heights change within it: each plane is
+// asked for its own.
+constexpr double narrow = 2.0;
 
 constexpr std::size_t cells_per_chunk = 512;  // about a millisecond of searching
 
@@ -121,11 +122,16 @@ std::vector<double> TangentPlanes::clear_heights(const std::vector<TangentPlane>
                      [&](std::size_t, std::size_t begin, std::size_t end) {
                        for (std::size_t c = begin; c < end; ++c) {
                          const std::size_t first = first_of_cell[c];
-                         const double own = clear_height(planes[keys[first].index]);
+                         const TangentPlane& plane = planes[keys[first].index];
+                         const double own = clear_height(plane);
                          const double height = own < reach * k_ ? shared_share * own : own;
+                         double extent = 0.0;
+                         for (std::size_t i = first; i < first_of_cell[c + 1]; ++i)
+                           extent =
+                               std::max(extent, (planes[keys[i].index].point - plane.point).norm());
                          for (std::size_t i = first; i < first_of_cell[c + 1]; ++i)
                            heights[keys[i].index] =
-                               own < narrow * k_ ? clear_height(planes[keys[i].index]) : height;
+                               own < narrow * extent ? clear_height(planes[keys[i].index]) : height;
                        }
                      });
   return heights;

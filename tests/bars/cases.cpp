@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/file_io.h"
 #include "meshes.h"
 #include "reference/sphere_beam_p1.h"
 
@@ -67,7 +68,9 @@ BarsCase with_returning_light(BarsCase c) {
 }  // namespace
 
 std::string made_mesh(const std::string& name) {
-  return fmt::format(KNOTLIGHT_ROOT "/.fetched/bars/{}.ply", name);
+  const std::string folder = KNOTLIGHT_ROOT "/.fetched/bars";
+  make_output_folder(folder);
+  return fmt::format("{}/{}.ply", folder, name);
 }
 
 std::vector<BarsCase> bars_cases() {

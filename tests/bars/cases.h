@@ -30,7 +30,7 @@ struct BarsCase {
 // tetrahedral finite elements of second order (docs/results/bars.md tells how, and their error).
 std::vector<BarsCase> bars_cases();
 
-// The file that a scene's generated mesh is kept in.
+// The file that a scene's generated mesh is kept in; its folder is made.
 std::string made_mesh(const std::string& name);
 
 // Rows x,y,z,nx,ny,nz,U after a header. Throws std::runtime_error.

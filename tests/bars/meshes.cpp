@@ -5,13 +5,11 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
-#include "core/file_io.h"
 #include "scene/mesh_reader.h"
 
 namespace knotlight {
@@ -60,26 +58,6 @@ double longest_edge(const TriangleMesh& mesh) {
     for (int i = 0; i < 3; ++i)
       longest = std::max(longest, (mesh.corner(t, i) - mesh.corner(t, (i + 1) % 3)).norm());
   return longest;
-}
-
-void put_ply(const std::string& path, const TriangleMesh& mesh) {
-  std::ofstream file(path, std::ios::binary);
-  file << fmt::format(
-      "ply\nformat binary_little_endian 1.0\n"
-      "element vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\n"
-      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      mesh.vertices.size(), mesh.triangles.size());
-  const auto put = [&file](const auto& value) {
-    file.write(reinterpret_cast<const char*>(&value), sizeof(value));
-  };
-  for (const Vec3& v : mesh.vertices)
-    for (const double x : v) put(static_cast<float>(x));
-  for (const Triangle& t : mesh.triangles) {
-    put(std::uint8_t{3});
-    for (const std::uint32_t v : t) put(v);
-  }
-  if (!file.flush()) throw std::runtime_error("cannot write " + path);
 }
 
 }  // namespace
@@ -154,11 +132,6 @@ TriangleMesh mended_bunny(const std::string& obj) {
     if (moved != 1) throw std::runtime_error(obj + " is not the bunny that the bars know");
   }
   return mesh;
-}
-
-void write_ply(const std::string& path, const TriangleMesh& mesh) {
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  write_atomically(path, [&](const std::string& file) { put_ply(file, mesh); });
 }
 
 }  // namespace knotlight

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/mesh.h"
+#include "core/ply_writer.h"
 
 namespace knotlight {
 
@@ -24,8 +24,5 @@ TriangleMesh refined_to(TriangleMesh mesh, std::size_t triangles);
 // Debian's bunny without its two pairs of crossing triangles: five vertices are moved, by 0.008 at
 // most, to where tetgen finds no crossing. Throws std::runtime_error if the file is not there.
 TriangleMesh mended_bunny(const std::string& obj);
-
-// Binary little-endian PLY, single precision; the folder is made.
-void write_ply(const std::string& path, const TriangleMesh& mesh);
 
 }  // namespace knotlight

@@ -54,15 +54,15 @@ TEST(Knots, BlueNoiseKeepsItsDistance) {
                           box_mesh(Vec3(0.0, 0.0, 0.0), Vec3(2.0, 1.0, 0.5))};
   for (const Shape& shape : shapes) {
     constexpr std::size_t count = 300;
-    const SurfaceKnots knots = surface_knots(shape, KnotLayout::blue_noise, count, 4);
-    ASSERT_EQ(knots.points.cols(), 300);
+    const SurfaceSamples knots = surface_knots(shape, KnotLayout::blue_noise, count, 4);
+    ASSERT_EQ(knots.positions.cols(), 300);
     const double best = std::sqrt(2.0 * surface_area(shape) / (std::sqrt(3.0) * count));
-    EXPECT_GT(smallest_distance(knots.points), 0.66 * best);
-    EXPECT_LT(smallest_distance(surface_knots(shape, KnotLayout::jittered, count, 4).points),
+    EXPECT_GT(smallest_distance(knots.positions), 0.66 * best);
+    EXPECT_LT(smallest_distance(surface_knots(shape, KnotLayout::jittered, count, 4).positions),
               0.4 * best);
     // The same for the same seed, another for another.
-    EXPECT_EQ(knots.points, surface_knots(shape, KnotLayout::blue_noise, count, 4).points);
-    EXPECT_NE(knots.points, surface_knots(shape, KnotLayout::blue_noise, count, 5).points);
+    EXPECT_EQ(knots.positions, surface_knots(shape, KnotLayout::blue_noise, count, 4).positions);
+    EXPECT_NE(knots.positions, surface_knots(shape, KnotLayout::blue_noise, count, 5).positions);
     for (Eigen::Index i = 0; i < 300; ++i) EXPECT_NEAR(knots.normals.col(i).norm(), 1.0, 1e-14);
   }
 }
@@ -84,37 +84,37 @@ TEST(Knots, FarthestPointsAgreeWithBruteForce) {
 
 TEST(Knots, VerticesOfAMesh) {
   const TriangleMesh box = box_mesh(Vec3::Constant(-1.0), Vec3::Constant(1.0));
-  const SurfaceKnots all = surface_knots(box, KnotLayout::vertices, 100, 1);
-  ASSERT_EQ(all.points.cols(), 8);
+  const SurfaceSamples all = surface_knots(box, KnotLayout::vertices, 100, 1);
+  ASSERT_EQ(all.positions.cols(), 8);
   // Three facets of equal angle sums meet at every corner.
   for (Eigen::Index i = 0; i < 8; ++i)
-    EXPECT_LT((all.normals.col(i) - all.points.col(i).normalized()).norm(), 1e-12);
-  const SurfaceKnots some = surface_knots(refine(box, 0.3), KnotLayout::vertices, 50, 1);
-  EXPECT_EQ(some.points.cols(), 50);
-  EXPECT_GT(smallest_distance(some.points), 0.3);
+    EXPECT_LT((all.normals.col(i) - all.positions.col(i).normalized()).norm(), 1e-12);
+  const SurfaceSamples some = surface_knots(refine(box, 0.3), KnotLayout::vertices, 50, 1);
+  EXPECT_EQ(some.positions.cols(), 50);
+  EXPECT_GT(smallest_distance(some.positions), 0.3);
 }
 
 // 10 n^2 + 2, nearest to what was asked for; none twice.
 TEST(Knots, VerticesOfASphere) {
   for (const auto& [asked, expected] : {std::pair{4, 12}, {12, 12}, {484, 492}, {1000, 1002}}) {
-    const SurfaceKnots knots = surface_knots(Sphere{Vec3(0.0, 1.0, 0.0), 3.0}, KnotLayout::vertices,
-                                             static_cast<std::size_t>(asked), 1);
-    ASSERT_EQ(knots.points.cols(), expected);
-    EXPECT_GT(smallest_distance(knots.points), 1.6 * 3.0 / std::sqrt(expected));
+    const SurfaceSamples knots = surface_knots(
+        Sphere{Vec3(0.0, 1.0, 0.0), 3.0}, KnotLayout::vertices, static_cast<std::size_t>(asked), 1);
+    ASSERT_EQ(knots.positions.cols(), expected);
+    EXPECT_GT(smallest_distance(knots.positions), 1.6 * 3.0 / std::sqrt(expected));
     for (Eigen::Index i = 0; i < expected; ++i)
-      EXPECT_LT((knots.points.col(i) - Vec3(0.0, 1.0, 0.0) - 3.0 * knots.normals.col(i)).norm(),
+      EXPECT_LT((knots.positions.col(i) - Vec3(0.0, 1.0, 0.0) - 3.0 * knots.normals.col(i)).norm(),
                 1e-14);
   }
 }
 
 TEST(Knots, StrataAreThoseOfTheShape) {
   const Shape ball = Sphere{};
-  const SurfaceKnots centres = surface_knots(ball, KnotLayout::stratified, 50, 1);
-  EXPECT_EQ(centres.points, surface_knots(ball, KnotLayout::stratified, 50, 2).points);
+  const SurfaceSamples centres = surface_knots(ball, KnotLayout::stratified, 50, 1);
+  EXPECT_EQ(centres.positions, surface_knots(ball, KnotLayout::stratified, 50, 2).positions);
   const auto expected = stratified_surface_points(ball, 50, true, 7, Stream::boundary_knots);
-  const SurfaceKnots jittered = surface_knots(ball, KnotLayout::jittered, 50, 7);
+  const SurfaceSamples jittered = surface_knots(ball, KnotLayout::jittered, 50, 7);
   for (Eigen::Index i = 0; i < 50; ++i)
-    EXPECT_EQ(Vec3(jittered.points.col(i)), expected[static_cast<std::size_t>(i)].position);
+    EXPECT_EQ(Vec3(jittered.positions.col(i)), expected[static_cast<std::size_t>(i)].position);
 }
 
 TEST(Knots, LatticeInABall) {

@@ -14,7 +14,7 @@ TEST(CellSize, Rule) {
   EXPECT_DOUBLE_EQ(cell_size_for(ball, 40.0, 40.0, 0.04, 100'000'000).h,
                    1.0 / 40.0);  // second order
   EXPECT_DOUBLE_EQ(cell_size_for(ball, 30.0, 150.0, 0.01, 100'000'000).h, 0.75 / 150.0);  // g = 0.8
-  EXPECT_FALSE(cell_size_for(ball, 30.0, 30.0, 0.01, 100'000'000).limited);
+  EXPECT_FALSE(cell_size_for(ball, 30.0, 30.0, 0.01, 100'000'000).limited());
 }
 
 TEST(CellSize, FinerTolerancesMayCostMore) {
@@ -26,7 +26,7 @@ TEST(CellSize, FinerTolerancesMayCostMore) {
 
 TEST(CellSize, Budget) {
   const CellSize ball = cell_size_for(Sphere{}, 1000.0, 1000.0, 0.01, 100'000);
-  EXPECT_TRUE(ball.limited);
+  EXPECT_TRUE(ball.limited());
   EXPECT_NEAR(volume(Sphere{}) / std::pow(ball.h, 3), 100'000, 1.0);
   EXPECT_DOUBLE_EQ(ball.h_sigma_tr, 1000.0 * ball.h);
   // A thin diagonal shape: the bounding box is what costs.
