@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "photon/irradiance.h"
-#include "render/camera.h"
+#include "trace/camera_rays.h"
 
 namespace knotlight {
 namespace {

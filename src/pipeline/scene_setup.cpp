@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "render/camera.h"
+#include "trace/camera_rays.h"
 #include "scene/scene_reader.h"
 #include "trace/overlap.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/fresnel.h"
 #include "core/rng.h"
-#include "render/camera.h"
+#include "trace/camera_rays.h"
 #include "trace/direct_light.h"
 
 namespace knotlight {

@@ -1,4 +1,4 @@
-#include "render/camera.h"
+#include "trace/camera_rays.h"
 
 #include <gtest/gtest.h>
 
