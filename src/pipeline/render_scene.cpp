@@ -32,12 +32,35 @@ const char* name_of(Exitance exitance) {
   return "";
 }
 
-// The field at the nodes of every object's surface grid, each node evaluated once.
-std::vector<std::optional<GlowingSurface>> evaluate_surfaces(const PreparedScene& prepared,
-                                                             const SolvedScene& solved,
-                                                             RunContext& run) {
+// What a picture file says about itself.
+Metadata picture_metadata(const Scene& scene, const std::string& path, const Report& report,
+                          const RunContext& run) {
+  Metadata metadata = {
+      {"Software", "knotlight " KNOTLIGHT_VERSION},
+      {"knotlight:scene", path},
+      {"knotlight:units", fmt::format("radiance in W/({0}^2 sr)", scene.units)},
+      {"knotlight:exitance", name_of(chosen_exitance(scene.solver))},
+      {"knotlight:boundary", scene.solver.boundary == Boundary::milne ? "milne" : "marshak"},
+      {"knotlight:photons", fmt::format("{}", scene.solver.photons)},
+      {"knotlight:tolerance", fmt::format("{}", scene.solver.tolerance)},
+      {"knotlight:seed", fmt::format("{}", run.options.seed)},
+      {"knotlight:trusted", report.failures.empty() ? "yes" : "no"}};
+  for (const ObjectReport& object : report.objects)
+    metadata.emplace_back("knotlight:method:" + object.name, object.method);
+  for (const std::string& item : run.options.overrides)
+    metadata.emplace_back("knotlight:set", item);
+  if (!report.failures.empty())
+    metadata.emplace_back("knotlight:failures",
+                          fmt::format("{}", fmt::join(report.failures, "; ")));
+  return metadata;
+}
+
+}  // namespace
+
+GlowingSurfaces glowing_surfaces(const PreparedScene& prepared, const SolvedScene& solved,
+                                 RunContext& run) {
   const Scene& scene = prepared.scene;
-  std::vector<std::optional<GlowingSurface>> surfaces(scene.objects.size());
+  GlowingSurfaces surfaces(scene.objects.size());
   std::size_t total = 0;
   for (const std::uint32_t index : prepared.translucent) {
     surfaces[index].emplace(GlowingSurface{SurfaceGrid(scene.objects[index].shape),
@@ -73,36 +96,11 @@ std::vector<std::optional<GlowingSurface>> evaluate_surfaces(const PreparedScene
   return surfaces;
 }
 
-// What a picture file says about itself.
-Metadata picture_metadata(const Scene& scene, const std::string& path, const Report& report,
-                          const RunContext& run) {
-  Metadata metadata = {
-      {"Software", "knotlight " KNOTLIGHT_VERSION},
-      {"knotlight:scene", path},
-      {"knotlight:units", fmt::format("radiance in W/({0}^2 sr)", scene.units)},
-      {"knotlight:exitance", name_of(chosen_exitance(scene.solver))},
-      {"knotlight:boundary", scene.solver.boundary == Boundary::milne ? "milne" : "marshak"},
-      {"knotlight:photons", fmt::format("{}", scene.solver.photons)},
-      {"knotlight:tolerance", fmt::format("{}", scene.solver.tolerance)},
-      {"knotlight:seed", fmt::format("{}", run.options.seed)},
-      {"knotlight:trusted", report.failures.empty() ? "yes" : "no"}};
-  for (const ObjectReport& object : report.objects)
-    metadata.emplace_back("knotlight:method:" + object.name, object.method);
-  for (const std::string& item : run.options.overrides)
-    metadata.emplace_back("knotlight:set", item);
-  if (!report.failures.empty())
-    metadata.emplace_back("knotlight:failures",
-                          fmt::format("{}", fmt::join(report.failures, "; ")));
-  return metadata;
-}
-
-}  // namespace
-
 Image take_picture(const PreparedScene& prepared, const SolvedScene& solved, RunContext& run) {
-  const auto surfaces = evaluate_surfaces(prepared, solved, run);
+  const GlowingSurfaces surfaces = glowing_surfaces(prepared, solved, run);
+  const Shading shading(prepared.scene, *prepared.caster, surfaces);
   Stage stage(run.stages, "picture", picture_tiles(prepared.scene.camera));
-  return render_picture(prepared.scene, *prepared.caster, surfaces, run.options.seed, run.workers,
-                        stage);
+  return render_picture(prepared.scene.camera, shading, run.options.seed, run.workers, stage);
 }
 
 Report render_scene(const std::string& path, const std::vector<std::string>& outputs,

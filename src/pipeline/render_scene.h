@@ -8,9 +8,15 @@
 #include "pipeline/report.h"
 #include "pipeline/run_options.h"
 #include "pipeline/solve_scene.h"
+#include "render/shading.h"
 #include "scene/scene.h"
 
 namespace knotlight {
+
+// The field at the nodes of every object's surface grid, each node evaluated once. What could not
+// be solved stays dark.
+GlowingSurfaces glowing_surfaces(const PreparedScene& prepared, const SolvedScene& solved,
+                                 RunContext& run);
 
 // The scene as its camera sees it, linear radiance. What could not be solved stays dark.
 Image take_picture(const PreparedScene& prepared, const SolvedScene& solved, RunContext& run);

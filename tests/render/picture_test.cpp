@@ -14,7 +14,7 @@ using std::numbers::pi;
 struct BallOnFloor {
   Scene scene;
   std::unique_ptr<RayCaster> caster;
-  std::vector<std::optional<GlowingSurface>> surfaces;
+  GlowingSurfaces surfaces;
 
   explicit BallOnFloor(double ior) {
     TranslucentMaterial wax;
@@ -50,7 +50,8 @@ struct BallOnFloor {
   Image render(int threads) const {
     Stages stages(false);
     Stage stage(stages, "picture", 1);
-    return render_picture(scene, *caster, surfaces, 7, Workers(threads), stage);
+    return render_picture(scene.camera, Shading(scene, *caster, surfaces), 7, Workers(threads),
+                          stage);
   }
 };
 

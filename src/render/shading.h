@@ -1,0 +1,52 @@
+// The light that comes to the eye along a ray, in a scene whose translucent objects are solved.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/rng.h"
+#include "render/exitance.h"
+#include "render/surface_grid.h"
+#include "scene/scene.h"
+#include "trace/ray_caster.h"
+
+namespace knotlight {
+
+// What the picture needs of one solved translucent object.
+struct GlowingSurface {
+  SurfaceGrid grid;
+  std::vector<Eigen::VectorXd> U_d;      // per channel, one value per grid node, W/(length^2 sr)
+  std::vector<LeavingRadiance> leaving;  // per channel
+  // U_d holds U_ri too, that of light which is diffuse from the moment it enters (the source model
+  // boundary_flux); entered / (2 pi) has to come off.
+  bool counts_entering_light = false;
+};
+
+// One per scene object, empty for diffuse ones.
+using GlowingSurfaces = std::vector<std::optional<GlowingSurface>>;
+
+class Shading {
+ public:
+  // All three must outlive it; caster was built from scene.objects in order.
+  Shading(const Scene& scene, const RayCaster& caster, const GlowingSurfaces& surfaces);
+
+  // One Monte Carlo estimate of the radiance that arrives along the ray, W/(length^2 sr). May be
+  // called from several threads.
+  Spectrum radiance(const Ray& ray, Rng& rng) const;
+
+ private:
+  Spectrum radiance(const Ray& ray, int bounces, Rng& rng) const;
+  Spectrum translucent_radiance(const Ray& ray, const Hit& hit, const TranslucentMaterial& material,
+                                int bounces, Rng& rng) const;
+  Spectrum seen_through(const Ray& ray, const Hit& hit, const TranslucentMaterial& material,
+                        int bounces, Rng& rng) const;
+  Vec3 shading_normal(const Hit& hit) const;
+
+  const Scene& scene_;
+  const RayCaster& caster_;
+  const GlowingSurfaces& surfaces_;
+  std::vector<std::vector<Vec3>> smooth_normals_;  // 3 per triangle; empty: use the hit's normal
+};
+
+}  // namespace knotlight
