@@ -31,6 +31,7 @@ class Emitter {
 
   // False if no light sends anything.
   bool any() const { return total_ > 0.0; }
+  double power() const { return total_; }  // W, as estimated
   EmittedPhoton sample(Rng& rng) const;
 
   // The same light by light, for those who choose the numbers themselves. Lights that send nothing

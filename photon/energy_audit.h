@@ -10,15 +10,17 @@ namespace knotlight {
 
 // All in W. An arrival is a photon that meets the object's surface from outside; light that left a
 // concave object and meets it again arrives again. A light placed inside a translucent object
-// arrives without being reflected. On a diffuse object everything that arrives is absorbed.
+// arrives without being reflected; so does light that a diffuse object inside it has reflected. Of
+// a diffuse object: what the lights, or other diffuse objects, throw on it straight is counted as
+// far as it was aimed at the translucent objects, and the reflected part of that as `unfollowed`.
 struct PowerTally {
   double incident = 0.0;
-  double reflected = 0.0;  // thrown back at arrival (Fresnel)
+  double reflected = 0.0;  // thrown back at arrival (Fresnel, or diffusely)
   double absorbed = 0.0;   // in the medium
   double escaped = 0.0;    // left the medium again, outwards or into an opaque object in it
   double escaped_unscattered = 0.0;  // the part of `escaped` that never interacted
-  double unfollowed = 0.0;           // ended on purpose at its first interaction (Orders::first)
-  double lost = 0.0;                 // dropped because of rounding at edges; must be tiny
+  double unfollowed = 0.0;  // ended on purpose, as at its first interaction (Orders::first)
+  double lost = 0.0;        // dropped because of rounding at edges; must be tiny
   // Sum over all interactions = sigma_t * integral of the fluence 4 pi U over the object.
   double interactions = 0.0;
   std::size_t photons = 0;  // that arrived

@@ -15,7 +15,7 @@
 namespace knotlight {
 
 struct FirstLightOptions {
-  std::size_t rays = 250'000;  // emitted
+  std::size_t rays = 250'000;  // emitted by the lights
   int points_per_ray = 1;      // per stay in a medium, 1 to 8
   // stratified: equal powers at depths that shift from ray to ray, as one more dimension of the
   // low-discrepancy points; unbiased for densities and integrals alike, and one point per ray is
@@ -37,14 +37,15 @@ struct FirstLight {
   // Per scene object, empty if not translucent: all of order 1, power = expected power that
   // interacts there first since it entered. Their sum is what PhotonWalk's first interactions
   // deliver in the mean, without light that was scattered before it entered
-  // (TracerOptions::Orders::returned delivers that).
+  // (TracerOptions::Orders::returned delivers that). Light that came by way of diffuse objects is
+  // in it (surroundings_light.h).
   std::vector<std::vector<VolumePhoton>> photons;
   // Per scene object with g != 0: both ends of every flight. With them, the flux moment of the
   // light needs no derivative: the sum over photons of power w . grad v has the expected value
   // sigma_t times the sum of power v over photons, plus sigma_t times that over ends (partial
   // integration along each flight).
   std::vector<std::vector<FlightEnd>> ends;
-  double emitted = 0.0;  // W, towards the sphere around the translucent objects
+  double emitted = 0.0;  // W, by the lights towards the sphere around the translucent objects
 };
 
 // Chords, refraction, internal and external reflection, passage through one object into another

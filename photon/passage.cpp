@@ -1,5 +1,12 @@
 #include "photon/passage.h"
 
+#include <cmath>
+
+#include "core/fresnel.h"
+#include "core/microfacet.h"
+#include "core/sampling.h"
+#include "trace/surroundings.h"
+
 namespace knotlight {
 namespace {
 
@@ -15,10 +22,10 @@ bool overlap(const Bounds& a, const Bounds& b, double slack) {
 }  // namespace
 
 Passage::Passage(const Scene& scene, const RayCaster& caster, int channel)
-    : caster_(caster), touch_(caster.touching_distance()) {
+    : scene_(scene), caster_(caster), channel_(channel), touch_(caster.touching_distance()) {
   std::vector<const Shape*> targets;
   for (const Object& object : scene.objects) {
-    Item item{false, 0.0, 0.0, 0.0, 1.0, bounds(object.shape), {}, {}};
+    Item item{false, 0.0, 0.0, 0.0, 1.0, 0.0, bounds(object.shape), {}, {}};
     if (const TranslucentMaterial* material = object.translucent()) {
       const Medium medium = material->medium(channel);
       item.translucent = true;
@@ -26,6 +33,7 @@ Passage::Passage(const Scene& scene, const RayCaster& caster, int channel)
       item.albedo = medium.albedo();
       item.g = medium.g;
       item.ior = medium.ior;
+      item.alpha = material->alpha();
       targets.push_back(&object.shape);
     }
     scene_bounds_.extend(item.bounds.lo);
@@ -66,12 +74,15 @@ std::optional<Hit> Passage::contact(const Vec3& p, const Vec3& d, std::uint32_t 
 }
 
 // Light that leaves A where B touches it meets B's surface there;
-// an opaque surface that touches a translucent one shields it from outside.
+// an opaque surface that touches a translucent one shields it from outside. One opaque surface on
+// another does not: light that leaves the one leaves both.
 std::optional<Hit> Passage::next_outside(const LightRay& light) const {
   if (light.on_surface) {
-    for (const std::uint32_t other : items_[light.object].touching_opaque)
-      if (auto hit = contact(light.position, light.direction, other)) return hit;
+    if (items_[light.object].translucent)
+      for (const std::uint32_t other : items_[light.object].touching_opaque)
+        if (auto hit = contact(light.position, light.direction, other)) return hit;
     for (const std::uint32_t other : items_[light.object].touching) {
+      if (!items_[other].translucent) continue;
       auto hit = contact(light.position, light.direction, other);
       if (hit && light.direction.dot(hit->normal) < 0.0) return hit;
     }
@@ -105,8 +116,36 @@ std::optional<Hit> Passage::next_inside(const LightRay& light, double distance) 
   return own && own->t < ray.t_max ? own : std::nullopt;
 }
 
+double Passage::reflectance(const Hit& hit) const {
+  return reflectance_at(scene_.objects[hit.object], hit)[channel_];
+}
+
 bool Passage::within_bounds(const Vec3& p, std::uint32_t object) const {
   return contains(items_[object].bounds, p, touch_);
+}
+
+Crossing cross_surface(const Vec3& direction, const Vec3& normal, double eta, double alpha,
+                       Rng& rng) {
+  if (alpha > 0.0) {
+    const SurfaceEvent event = cross_rough_surface(direction, normal, eta, alpha, rng);
+    return {event.direction, event.transmitted};
+  }
+  const auto refracted = refract(direction, normal, eta);
+  const double u = rng.uniform();
+  if (!refracted || u < fresnel_reflectance(std::abs(direction.dot(normal)), eta))
+    return {reflect(direction, normal), false};
+  return {*refracted, true};
+}
+
+LightRay reflected_diffusely(const LightRay& arriving, const Hit& hit, double u, double v) {
+  const bool on_front = arriving.direction.dot(hit.normal) < 0.0;
+  LightRay leaving = arriving;
+  leaving.position = hit.position;
+  leaving.direction =
+      Frame(on_front ? hit.normal : Vec3(-hit.normal)).to_world(sample_cosine_hemisphere(u, v));
+  leaving.on_surface = true;
+  if (!arriving.inside) leaving.object = hit.object;
+  return leaving;
 }
 
 }  // namespace knotlight

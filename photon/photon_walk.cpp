@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "core/fresnel.h"
 #include "core/phase_function.h"
 #include "core/sampling.h"
 
@@ -22,7 +21,11 @@ struct PhotonWalk::Flight : LightRay {
   bool alive = true;
   std::uint32_t order = 0;  // interactions since it entered
   bool followed = false;    // past its first interaction ever
+  bool straight = true;     // nothing but index-matched media since the light, or the surroundings
   std::size_t events = 0;
+  Vec3 normal = Vec3::Zero();  // outward, of the surface that it has just entered or met
+  std::uint32_t surface = 0;   // the triangle
+  double depth = std::numeric_limits<double>::infinity();  // VolumePhoton::depth
 };
 
 PhotonWalk::PhotonWalk(const Scene& scene, const RayCaster& caster, int channel,
@@ -30,7 +33,24 @@ PhotonWalk::PhotonWalk(const Scene& scene, const RayCaster& caster, int channel,
     : passage_(scene, caster, channel), options_(options) {}
 
 void PhotonWalk::run(const EmittedPhoton& start, Rng& rng, WalkRecord& record) const {
-  Flight flight{passage_.start(start.origin, start.direction), start.power};
+  run(passage_.start(start.origin, start.direction), start.power, rng, record);
+}
+
+void PhotonWalk::run(const LightRay& start, double power, Rng& rng, WalkRecord& record) const {
+  Flight flight{start, power};
+  follow(flight, rng, record);
+}
+
+void PhotonWalk::run_emitted(const EmittedPhoton& start, std::uint32_t object, Rng& rng,
+                             WalkRecord& record) const {
+  Flight flight{{start.origin, start.direction, true, false, object}, start.power};
+  flight.order = 1;
+  flight.followed = true;
+  flight.straight = false;
+  follow(flight, rng, record);
+}
+
+void PhotonWalk::follow(Flight& flight, Rng& rng, WalkRecord& record) const {
   if (flight.inside) {
     record.tally[flight.object].incident += flight.power;
     record.tally[flight.object].photons += 1;
@@ -47,6 +67,29 @@ void PhotonWalk::run(const EmittedPhoton& start, Rng& rng, WalkRecord& record) c
   }
 }
 
+// `tally`: of the diffuse object.
+void PhotonWalk::meet_diffuse(Flight& flight, const Hit& hit, Rng& rng, PowerTally& tally) const {
+  tally.incident += flight.power;
+  tally.photons += 1;
+  const double reflectance = passage_.reflectance(hit);
+  if (flight.straight && !flight.inside) {
+    tally.unfollowed += reflectance * flight.power;
+    tally.absorbed += (1.0 - reflectance) * flight.power;
+    flight.alive = false;
+    return;
+  }
+  if (reflectance == 0.0 || rng.uniform() >= reflectance) {
+    tally.absorbed += flight.power;
+    flight.alive = false;
+    return;
+  }
+  tally.reflected += flight.power;
+  const double u = rng.uniform();
+  const double v = rng.uniform();
+  static_cast<LightRay&>(flight) = reflected_diffusely(flight, hit, u, v);
+  flight.straight = false;
+}
+
 void PhotonWalk::walk_outside(Flight& flight, Rng& rng, WalkRecord& record) const {
   const auto hit = passage_.next_outside(flight);
   if (!hit) {
@@ -55,31 +98,31 @@ void PhotonWalk::walk_outside(Flight& flight, Rng& rng, WalkRecord& record) cons
   }
   const Passage::Item& item = passage_.item(hit->object);
   PowerTally& tally = record.tally[hit->object];
-  tally.incident += flight.power;
-  tally.photons += 1;
   if (!item.translucent) {
-    tally.absorbed += flight.power;
-    flight.alive = false;
+    meet_diffuse(flight, *hit, rng, tally);
     return;
   }
+  tally.incident += flight.power;
+  tally.photons += 1;
   const double cosine = flight.direction.dot(hit->normal);
   if (cosine >= 0.0) {  // its front was missed
     tally.lost += flight.power;
     flight.alive = false;
     return;
   }
-  const auto refracted = refract(flight.direction, hit->normal, item.ior);
-  const double u = rng.uniform();
+  const Crossing crossing = cross_surface(flight.direction, hit->normal, item.ior, item.alpha, rng);
   flight.position = hit->position;
+  flight.direction = crossing.direction;
   flight.object = hit->object;
   flight.on_surface = true;
-  if (!refracted || u < fresnel_reflectance(-cosine, item.ior)) {
-    tally.reflected += flight.power;
-    flight.direction = reflect(flight.direction, hit->normal);
-  } else {
-    flight.direction = *refracted;
+  flight.normal = hit->normal;
+  flight.surface = hit->primitive;
+  flight.straight = flight.straight && item.ior == 1.0;
+  if (crossing.through) {
     flight.inside = true;
     flight.order = 0;
+  } else {
+    tally.reflected += flight.power;
   }
 }
 
@@ -96,18 +139,20 @@ void PhotonWalk::walk_inside(Flight& flight, Rng& rng, WalkRecord& record) const
   }
   if (!hit) {
     flight.position += distance * flight.direction;
+    flight.depth = flight.on_surface ? -distance * flight.direction.dot(flight.normal)
+                                     : std::numeric_limits<double>::infinity();
     flight.on_surface = false;
     interact(flight, rng, record);
     return;
   }
   if (hit->object != flight.object) {  // an opaque object inside the medium
-    PowerTally& opaque = record.tally[hit->object];
-    opaque.incident += flight.power;
-    opaque.absorbed += flight.power;
-    opaque.photons += 1;
     tally.escaped += flight.power;
     if (flight.order == 0) tally.escaped_unscattered += flight.power;
-    flight.alive = false;
+    meet_diffuse(flight, *hit, rng, record.tally[hit->object]);
+    if (flight.alive) {
+      tally.incident += flight.power;
+      tally.photons += 1;
+    }
     return;
   }
   const double cosine = flight.direction.dot(hit->normal);
@@ -116,16 +161,17 @@ void PhotonWalk::walk_inside(Flight& flight, Rng& rng, WalkRecord& record) const
     flight.alive = false;
     return;
   }
-  const auto refracted = refract(flight.direction, hit->normal, 1.0 / item.ior);
-  const double u = rng.uniform();
+  const Crossing crossing =
+      cross_surface(flight.direction, hit->normal, 1.0 / item.ior, item.alpha, rng);
   flight.position = hit->position;
+  flight.direction = crossing.direction;
   flight.on_surface = true;
-  if (!refracted || u < fresnel_reflectance(cosine, 1.0 / item.ior)) {
-    flight.direction = reflect(flight.direction, hit->normal);
-  } else {
+  flight.normal = hit->normal;
+  flight.surface = hit->primitive;
+  flight.straight = flight.straight && item.ior == 1.0;
+  if (crossing.through) {
     tally.escaped += flight.power;
     if (flight.order == 0) tally.escaped_unscattered += flight.power;
-    flight.direction = *refracted;
     flight.inside = false;
   }
 }
@@ -142,8 +188,8 @@ void PhotonWalk::interact(Flight& flight, Rng& rng, WalkRecord& record) const {
   tally.interactions += flight.power;
   if (options_.store && (flight.order == 1 || !options_.store_first_only) &&
       (flight.followed || !options_.store_returned_only))
-    record.photons[flight.object].push_back(
-        {flight.position, flight.direction, flight.power, flight.order});
+    record.photons[flight.object].push_back({flight.position, flight.direction, flight.power,
+                                             flight.order, flight.surface, flight.depth});
   if (!flight.followed && options_.follow_probability < 1.0) {
     if (rng.uniform() >= options_.follow_probability) {
       tally.unfollowed += flight.power;
@@ -155,6 +201,7 @@ void PhotonWalk::interact(Flight& flight, Rng& rng, WalkRecord& record) const {
     flight.power = raised;
   }
   flight.followed = true;
+  flight.straight = false;
   if (rng.uniform() >= item.albedo) {
     tally.absorbed += flight.power;
     flight.alive = false;

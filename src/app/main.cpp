@@ -7,14 +7,18 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "app/view_window.h"
 #include "compare/compare.h"
 #include "core/errors.h"
 #include "core/file_io.h"
 #include "core/image_io.h"
 #include "pipeline/info.h"
+#include "pipeline/layers.h"
 #include "pipeline/probe_scene.h"
+#include "pipeline/reference_scene.h"
 #include "pipeline/render_scene.h"
 #include "pipeline/report_json.h"
 #include "pipeline/run_options.h"
@@ -31,7 +35,10 @@ struct CommandLine {
   std::string scene;
   std::string output;
   std::string points;
+  std::optional<std::string> layers;
+  std::string solution, save_solution;
   bool json_wanted = false;
+  std::optional<std::uint64_t> samples;
   CompareOptions compare;
   ValidateOptions validate;
   StabilityOptions stability;
@@ -58,17 +65,17 @@ void add_common_options(CLI::App& command, CommandLine& line) {
 
 // Without -o a picture goes to the working folder under the scene's name, as .exr to measure and as
 // .png to look at.
-std::vector<std::string> picture_files(const CommandLine& line) {
+std::vector<std::string> picture_files(const CommandLine& line, const std::string& ending = "") {
   if (!line.output.empty()) return {line.output};
-  const std::string stem = std::filesystem::path(line.scene).stem().string();
+  const std::string stem = std::filesystem::path(line.scene).stem().string() + ending;
   return {stem + ".exr", stem + ".png"};
 }
 
 // Failed checks, one line each; tells the exit code.
-int judge(const Report& report) {
-  for (const std::string& failure : report.failures)
+int judge(const std::vector<std::string>& failures) {
+  for (const std::string& failure : failures)
     fmt::print(stderr, "not to be trusted: {}\n", failure);
-  return report.failures.empty() ? exit_ok : exit_untrusted;
+  return failures.empty() ? exit_ok : exit_untrusted;
 }
 
 void write_summary(const CommandLine& line, const std::string& command, const Report& report,
@@ -86,17 +93,41 @@ void check_folder_of(const std::string& file) {
 }
 
 int render(const CommandLine& line, RunContext& run) {
-  const std::vector<std::string> files = picture_files(line);
-  for (const std::string& file : files) {
+  RenderFiles files;
+  files.pictures = picture_files(line);
+  for (const std::string& file : files.pictures) {
     check_image_extension(file);
     check_folder_of(file);
   }
+  if (line.layers) {
+    files.layers = chosen_layers(*line.layers);
+    if (std::none_of(files.pictures.begin(), files.pictures.end(), holds_layers))
+      throw InputError(fmt::format("--layers: {} cannot hold layers, expected an .exr (-o)",
+                                   files.pictures.front()));
+  }
+  files.solution = line.solution;
+  files.save_solution = line.save_solution;
+  if (!files.solution.empty() && !files.save_solution.empty())
+    throw InputError("--save-solution: would copy the file of --solution, expected one of the two");
+  if (!files.save_solution.empty()) check_folder_of(files.save_solution);
   Scene scene;
   const Report report = render_scene(line.scene, files, run, scene);
   write_summary(line, "render", report, scene, run);
   if (!line.options.quiet)
-    for (const std::string& file : files) fmt::print("{}\n", file);
-  return judge(report);
+    for (const std::string& file : files.pictures) fmt::print("{}\n", file);
+  return judge(report.failures);
+}
+
+int reference(const CommandLine& line, RunContext& run) {
+  const std::vector<std::string> files = picture_files(line, "_reference");
+  for (const std::string& file : files) {
+    check_image_extension(file);
+    check_folder_of(file);
+  }
+  const ReferenceSummary summary = reference_scene(line.scene, files, line.samples, run);
+  if (!line.options.json.empty()) write_text_file(line.options.json, reference_json(summary, run));
+  if (!line.options.quiet) fmt::print("{}\n{}", fmt::join(files, "\n"), describe(summary));
+  return judge(summary.failures());
 }
 
 int probe(const CommandLine& line, RunContext& run) {
@@ -104,7 +135,7 @@ int probe(const CommandLine& line, RunContext& run) {
   Scene scene;
   const Report report = probe_scene(line.scene, line.points, line.output, run, scene);
   write_summary(line, "probe", report, scene, run);
-  return judge(report);
+  return judge(report.failures);
 }
 
 int compare(const CommandLine& line, RunContext& run) {
@@ -113,7 +144,12 @@ int compare(const CommandLine& line, RunContext& run) {
   write_summary(line, "compare", report, scene, run);
   if (!line.options.quiet)
     fmt::print("{}\n", (std::filesystem::path(line.output) / "index.html").string());
-  return judge(report);
+  return judge(report.failures);
+}
+
+int view(const CommandLine& line) {
+  view_scene(line.scene, line.options);
+  return exit_ok;
 }
 
 int info(const CommandLine& line, RunContext& run) {
@@ -168,6 +204,20 @@ int run_program(int argc, char** argv) {
   add_common_options(render_command, line);
   render_command.add_option("-o,--output", line.output,
                             "picture, .exr (linear) or .png (tone-mapped); default: both");
+  render_command.add_option("--layers", line.layers,
+                            "further channels of the .exr: all, or names with commas between");
+  render_command.add_option("--save-solution", line.save_solution,
+                            "keep the solved fields in this file, for other pictures of them");
+  render_command.add_option("--solution", line.solution,
+                            "take the fields from this file, solve nothing; the scene must be the "
+                            "same but for camera and exitance");
+  CLI::App& reference_command = *app.add_subcommand(
+      "reference", "the same picture by Monte Carlo path tracing, with its variance");
+  add_common_options(reference_command, line);
+  reference_command.add_option("-o,--output", line.output,
+                               "picture, .exr (linear, with variance) or .png; default: both");
+  reference_command.add_option("--spp", line.samples, "samples per pixel; default: camera.samples")
+      ->check(CLI::Range(1.0, 1e9));
   CLI::App& probe_command = *app.add_subcommand("probe", "evaluate the solved field at points");
   add_common_options(probe_command, line);
   probe_command.add_option("--points", line.points, "CSV with columns x, y, z")->required();
@@ -175,6 +225,9 @@ int run_program(int argc, char** argv) {
   CLI::App& info_command =
       *app.add_subcommand("info", "say what the scene is and what would be solved");
   add_common_options(info_command, line);
+  CLI::App& view_command = *app.add_subcommand(
+      "view", "a window: turn the object, move lights, change materials, see it solved anew");
+  add_common_options(view_command, line);
   CLI::App& compare_command =
       *app.add_subcommand("compare", "source models side by side: pictures, charts, one page");
   add_common_options(compare_command, line);
@@ -199,7 +252,8 @@ int run_program(int argc, char** argv) {
   stability_command.add_option("-o,--output", line.output, "folder to write to")->required();
   stability_command.add_flag("--quick", line.stability.quick,
                              "a few cells of each map and two scenes; seconds");
-  for (CLI::App* command : {&render_command, &probe_command, &compare_command, &validate_command})
+  for (CLI::App* command :
+       {&render_command, &reference_command, &probe_command, &compare_command, &validate_command})
     command->add_option("--json", line.options.json, "write a summary to this file");
   CLI::Option* info_json =
       info_command
@@ -208,8 +262,8 @@ int run_program(int argc, char** argv) {
                       "standard output if none is named")
           ->expected(0, 1);
 
-  const std::vector<std::string> names = {"render",   "probe",     "compare",
-                                          "validate", "stability", "info"};
+  const std::vector<std::string> names = {"render",   "reference", "probe", "compare",
+                                          "validate", "stability", "info",  "view"};
   if (argc < 2)
     throw InputError(
         fmt::format("no command given, expected {} (see knotlight --help)", one_of(names)));
@@ -231,10 +285,12 @@ int run_program(int argc, char** argv) {
   const bool bars = !line.options.quiet && isatty(STDERR_FILENO) != 0;
   RunContext run(line.options, bars);
   if (render_command.parsed()) return render(line, run);
+  if (reference_command.parsed()) return reference(line, run);
   if (probe_command.parsed()) return probe(line, run);
   if (compare_command.parsed()) return compare(line, run);
   if (validate_command.parsed()) return validate_program(line, run);
   if (stability_command.parsed()) return map_stability(line, run);
+  if (view_command.parsed()) return view(line);
   return info(line, run);
 }
 

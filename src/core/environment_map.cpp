@@ -129,4 +129,19 @@ EnvironmentMap::Sample EnvironmentMap::sample(double u, double v) const {
           probability / (pixel_azimuth * (z_top - z_bottom))};
 }
 
+double EnvironmentMap::pdf(const Vec3& w) const {
+  const double azimuth = std::atan2(w.y(), w.x());  // -pi..pi
+  const double polar = std::atan2(std::hypot(w.x(), w.y()), w.z());
+  const auto pixel = [](double fraction, int count) {
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(fraction * count), 0, count - 1));
+  };
+  const std::size_t row = pixel(polar / pi, height_);
+  const std::size_t column = pixel((azimuth + pi) / (2.0 * pi), width_);
+  const double* columns = &column_cdf_[row * (static_cast<std::size_t>(width_) + 1)];
+  const double z_top = row_edge_z(static_cast<int>(row), height_);
+  const double z_bottom = row_edge_z(static_cast<int>(row) + 1, height_);
+  return (row_cdf_[row + 1] - row_cdf_[row]) * (columns[column + 1] - columns[column]) /
+         (2.0 * pi / width_ * (z_top - z_bottom));
+}
+
 }  // namespace knotlight

@@ -15,6 +15,9 @@ class EnvironmentMap {
   // pixels: width * height values, row by row from the top, W/(length^2 sr), each >= 0.
   EnvironmentMap(int width, int height, std::vector<Spectrum> pixels);
 
+  int width() const { return width_; }
+  const std::vector<Spectrum>& pixels() const { return pixels_; }
+
   // Radiance arriving from the unit direction w (pointing away from the scene), by bilinear
   // interpolation.
   Spectrum radiance(const Vec3& w) const;
@@ -27,6 +30,8 @@ class EnvironmentMap {
   // radiance averaged over it (mean of the channels), so that every direction that shines can be
   // chosen; uniform over the pixel's solid angle. A black map: uniform. u, v uniform in [0, 1).
   Sample sample(double u, double v) const;
+  // The density with which sample() chooses the unit direction w, 1/sr.
+  double pdf(const Vec3& w) const;
 
  private:
   int width_, height_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -82,20 +83,41 @@ Image read_image(const std::string& path) {
   return codec().read(path);
 }
 
-Image tone_map(const Image& linear) {
+LayeredImage read_layers(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError(fmt::format("{}: no such file, expected a picture", path));
+  return codec().read_layers(path);
+}
+
+const std::vector<float>& LayeredImage::values(const std::string& channel) const {
+  std::vector<std::string> names;
+  for (const Layer& layer : layers) {
+    if (layer.channel == channel) return layer.values;
+    names.push_back(layer.channel);
+  }
+  throw InputError(
+      fmt::format("there is no channel '{}', expected one of {}", channel, fmt::join(names, ", ")));
+}
+
+double automatic_exposure(const Image& linear) {
   std::vector<double> lit;
   for (const Spectrum& c : linear.pixels)
     if (luminance(c) > 0.0) lit.push_back(luminance(c));
-  double exposure = 1.0;
-  if (!lit.empty()) {
-    const auto rank =
-        static_cast<std::ptrdiff_t>(exposure_quantile * static_cast<double>(lit.size() - 1));
-    std::nth_element(lit.begin(), lit.begin() + rank, lit.end());
-    exposure = exposure_target / lit[static_cast<std::size_t>(rank)];
-  }
+  if (lit.empty()) return 1.0;
+  const auto rank =
+      static_cast<std::ptrdiff_t>(exposure_quantile * static_cast<double>(lit.size() - 1));
+  std::nth_element(lit.begin(), lit.begin() + rank, lit.end());
+  return exposure_target / lit[static_cast<std::size_t>(rank)];
+}
+
+double display_value(double exposed) {
+  return srgb_encode(shoulder(exposed));
+}
+
+Image tone_map(const Image& linear) {
+  const double exposure = automatic_exposure(linear);
   Image display = linear;
-  for (Spectrum& c : display.pixels)
-    c = (c * exposure).unaryExpr([](double x) { return srgb_encode(shoulder(x)); });
+  for (Spectrum& c : display.pixels) c = (c * exposure).unaryExpr(&display_value);
   return display;
 }
 
@@ -117,6 +139,29 @@ void write_image(const std::string& path, const Image& image, const Metadata& me
       codec().write_float(temporary,
                           pixel_block<float>(image, [](double x) { return static_cast<float>(x); }),
                           metadata);
+  });
+}
+
+void write_layers(const std::string& path, int width, int height, const std::vector<Layer>& layers,
+                  const Metadata& metadata) {
+  if (std::filesystem::path(path).extension() != ".exr")
+    throw InputError(fmt::format("{}: only .exr holds layers, expected a name with it", path));
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  PixelBlock<float> block{width, height, std::vector<float>(pixels * layers.size())};
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    assert(layers[i].values.size() == pixels);
+    names.push_back(layers[i].channel);
+    for (std::size_t k = 0; k < pixels; ++k) {
+      const float value = layers[i].values[k];
+      if (std::isnan(value))
+        throw std::runtime_error(
+            fmt::format("{}: layer {} has pixels that are not a number", path, names.back()));
+      block.values[k * layers.size() + i] = value;
+    }
+  }
+  write_atomically(path, [&](const std::string& temporary) {
+    codec().write_layers(temporary, block, names, metadata);
   });
 }
 

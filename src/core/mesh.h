@@ -27,6 +27,7 @@ struct Bounds {
 struct TriangleMesh {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
+  std::vector<Spectrum> colours = {};  // one per vertex, linear, 0..1; or none
 
   const Vec3& corner(std::size_t triangle, int i) const {
     return vertices[triangles[triangle][static_cast<std::size_t>(i)]];
@@ -54,7 +55,8 @@ Vec3 nearest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, cons
 std::vector<Vec3> smooth_corner_normals(const TriangleMesh& mesh, double crease_cosine);
 
 // The same surface with every edge longer than `max_edge` halved until none is left. Conforming:
-// neighbours split their common edge together, so a closed mesh stays closed.
+// neighbours split their common edge together, so a closed mesh stays closed. Colours are
+// interpolated.
 TriangleMesh refine(TriangleMesh mesh, double max_edge);
 
 // Axis-aligned box as a closed mesh of 12 triangles.

@@ -34,6 +34,7 @@ Midpoints mark_long_edges(TriangleMesh& mesh, double max_edge) {
       const auto vertex = static_cast<std::uint32_t>(mesh.vertices.size());
       if (!midpoints.emplace(edge_key(a, b), vertex).second) continue;
       mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
+      if (!mesh.colours.empty()) mesh.colours.push_back(0.5 * (mesh.colours[a] + mesh.colours[b]));
     }
   }
   return midpoints;

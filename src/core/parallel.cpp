@@ -9,9 +9,10 @@
 
 namespace knotlight {
 
-Workers::Workers(int threads)
+Workers::Workers(int threads, const std::atomic<bool>* cancelled)
     : threads_(threads > 0 ? threads
-                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {}
+                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+      cancelled_(cancelled) {}
 
 void Workers::for_chunks(
     std::size_t n, std::size_t chunk_size,
@@ -27,6 +28,7 @@ void Workers::for_chunks(
       const std::size_t chunk = next++;
       if (chunk >= chunks) return;
       try {
+        if (cancelled_ != nullptr && *cancelled_) throw Cancelled();
         body(chunk, chunk * chunk_size, std::min(n, (chunk + 1) * chunk_size));
       } catch (...) {
         const std::lock_guard lock(error_mutex);

@@ -1,15 +1,21 @@
 // A parallel loop over chunks whose borders do not depend on the number of threads.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 
 namespace knotlight {
 
+// Thrown by Workers::for_chunks when its work is no longer wanted. Not an error, and so no
+// std::exception.
+struct Cancelled {};
+
 class Workers {
  public:
-  // threads = 0: one per hardware thread.
-  explicit Workers(int threads = 0);
+  // threads = 0: one per hardware thread. cancelled, if not null, must outlive all copies; once it
+  // is true for_chunks begins no further chunk and throws Cancelled.
+  explicit Workers(int threads = 0, const std::atomic<bool>* cancelled = nullptr);
   int threads() const { return threads_; }
 
   // Calls body(chunk, begin, end) once for each chunk of up to `chunk_size` of the indices 0..n-1.
@@ -22,6 +28,7 @@ class Workers {
 
  private:
   int threads_;
+  const std::atomic<bool>* cancelled_;
 };
 
 }  // namespace knotlight

@@ -20,6 +20,11 @@ enum class Stream : std::uint64_t {
   irradiance_rays,
   tests,
   random_projection,
+  reference,
+  reference_lamps,
+  surroundings,
+  volume_emission,
+  layers,
 };
 
 // Permuted congruential generator PCG32 (XSH-RR), O'Neill 2014 [O14]; period 2^64.

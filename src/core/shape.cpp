@@ -62,30 +62,6 @@ std::uint64_t spread_bits(std::uint64_t x) {
   return x;
 }
 
-// Triangles that have an area, along the Morton curve through the centroids: neighbours on the
-// curve are neighbours in space, so a run of triangles is a patch.
-std::vector<std::uint32_t> morton_order(const TriangleMesh& mesh) {
-  constexpr double cells = 2097151.0;  // 2^21 - 1 per axis
-  const Bounds box = bounds(mesh);
-  const double extent = box.largest_extent();
-  const double scale = extent > 0.0 ? cells / extent : 0.0;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> codes;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!(mesh.area(t) > 0.0)) continue;
-    const Vec3 centroid = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
-    const Vec3 q = scale * (centroid - box.lo);
-    std::uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      code |= spread_bits(static_cast<std::uint64_t>(std::clamp(q[axis], 0.0, cells))) << axis;
-    codes.emplace_back(code, static_cast<std::uint32_t>(t));
-  }
-  std::sort(codes.begin(), codes.end());
-  std::vector<std::uint32_t> order;
-  order.reserve(codes.size());
-  for (const auto& [code, triangle] : codes) order.push_back(triangle);
-  return order;
-}
-
 // A stratum is a run of the cumulative area along the Morton curve. Its position along the run
 // picks the triangle, and the remainder is the first coordinate in it, so that strata smaller than
 // a triangle are strips of it; the second is random, or follows the golden ratio so that centres
@@ -119,6 +95,28 @@ std::vector<SurfacePoint> mesh_points(const TriangleMesh& mesh, std::size_t coun
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> morton_order(const TriangleMesh& mesh) {
+  constexpr double cells = 2097151.0;  // 2^21 - 1 per axis
+  const Bounds box = bounds(mesh);
+  const double extent = box.largest_extent();
+  const double scale = extent > 0.0 ? cells / extent : 0.0;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> codes;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!(mesh.area(t) > 0.0)) continue;
+    const Vec3 centroid = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+    const Vec3 q = scale * (centroid - box.lo);
+    std::uint64_t code = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      code |= spread_bits(static_cast<std::uint64_t>(std::clamp(q[axis], 0.0, cells))) << axis;
+    codes.emplace_back(code, static_cast<std::uint32_t>(t));
+  }
+  std::sort(codes.begin(), codes.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(codes.size());
+  for (const auto& [code, triangle] : codes) order.push_back(triangle);
+  return order;
+}
 
 Bounds bounds(const Shape& shape) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return bounds(*mesh);

@@ -35,6 +35,10 @@ Sphere sphere_around(const std::vector<const Shape*>& shapes);
 double surface_area(const Shape& shape);
 double volume(const Shape& shape);
 
+// The triangles of a mesh that have an area, along the Morton curve through their centroids:
+// neighbours on the curve are neighbours in space, so a run of triangles is a patch.
+std::vector<std::uint32_t> morton_order(const TriangleMesh& mesh);
+
 // N points spread over the surface by strata of equal area, N x (position, normal): the knots of
 // [V09 ch. 7]. Sphere: about sqrt(N/2) x sqrt(2N) cells in (z, phi). Mesh: triangles in Morton
 // order of their centroids, one point per N-th of the total area. Without jitter the centre of each

@@ -86,6 +86,22 @@ double GridField::value(const Vec3& x, const Vec3& normal) const {
   return geometry_ ? at(geometry_->locate(x, normal)) : std::numeric_limits<double>::quiet_NaN();
 }
 
+GridField::Sample GridField::sample(const Vec3& x) const {
+  const Place place = geometry_->locate(x);
+  if (place.piece < 0)
+    return {std::numeric_limits<double>::quiet_NaN(),
+            Vec3::Constant(std::numeric_limits<double>::quiet_NaN())};
+  Sample result{at(place), Vec3::Zero()};
+  // Trilinear: differences over the whole cell are the exact derivatives.
+  for (int axis = 0; axis < 3; ++axis) {
+    Place low = place, high = place;
+    low.local[axis] = 0.0;
+    high.local[axis] = 1.0;
+    result.gradient[axis] = (at(high) - at(low)) / geometry_->h();
+  }
+  return result;
+}
+
 Eigen::VectorXd GridField::values(const Points& x) const {
   Eigen::VectorXd u(x.cols());
   for (Eigen::Index i = 0; i < u.size(); ++i) u[i] = value(x.col(i));

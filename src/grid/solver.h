@@ -66,8 +66,15 @@ class GridField {
   double value(const Vec3& x, const Vec3& normal) const;
   Eigen::VectorXd values(const Points& x) const;
   Eigen::VectorXd values(const Points& x, const Points& normals) const;
+  // With its gradient (constant along each axis within a cell), in 1/length times the unit of u.
+  struct Sample {
+    double value;
+    Vec3 gradient;
+  };
+  Sample sample(const Vec3& x) const;
   // Values at the nodes.
   const Eigen::VectorXd& nodes() const { return values_; }
+  const GridGeometry& geometry() const { return *geometry_; }
 
  private:
   double at(const Place& place) const;

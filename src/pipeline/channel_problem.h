@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/medium.h"
 #include "core/parallel.h"
+#include "grid/solver.h"
 #include "pipeline/factor_cache.h"
 #include "pipeline/incident_light.h"
 #include "pipeline/sample_points.h"
@@ -44,6 +46,8 @@ using FieldValues = std::function<Eigen::VectorXd(const Points&)>;
 
 struct ChannelSolution {
   Method method = Method::grid;  // that found it
+  // The same as U_d, of a method that has it on a grid.
+  std::optional<GridField> on_grid;
   FieldValues U_d;      // with the model boundary_flux: U_ri + U_d, which it does not tell apart
   bool solved = false;  // false: U_d is not to be used, failures say why
   double numerical_error = 0.0;  // of solving the equations given the photons, relative

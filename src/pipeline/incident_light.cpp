@@ -5,6 +5,7 @@
 
 #include "core/convexity.h"
 #include "photon/photon_tracer.h"
+#include "trace/surroundings.h"
 
 namespace knotlight {
 namespace {
@@ -90,9 +91,9 @@ EstimateOptions estimate_options(const SolverSettings& settings, std::size_t pho
 }
 
 bool light_can_come_back(const PreparedScene& prepared) {
-  return prepared.translucent.size() > 1 ||
-         (prepared.translucent.size() == 1 &&
-          !is_convex(prepared.scene.objects[prepared.translucent[0]].shape));
+  if (prepared.translucent.size() != 1) return prepared.translucent.size() > 1;
+  return surroundings_reflect(prepared.scene) ||
+         !is_convex(prepared.scene.objects[prepared.translucent[0]].shape);
 }
 
 std::size_t incident_light_work(const PreparedScene& prepared, SourceModel model) {

@@ -47,7 +47,7 @@ std::vector<IncidentLight> trace_incident_light(const PreparedScene& prepared, i
 std::size_t incident_light_work(const PreparedScene& prepared, SourceModel model);
 
 // Whether light that has left an object can enter it, or another one, again: always unless there is
-// but one, convex.
+// but one, convex, and no diffuse object reflects.
 bool light_can_come_back(const PreparedScene& prepared);
 
 }  // namespace knotlight

@@ -43,8 +43,8 @@ void choose_source(const PreparedScene& prepared, Plan& plan) {
     plan.source_reason = fmt::format("{}, as the scene asks", name_of(plan.source));
     return;
   }
-  if (sky_alone(scene) && scene.objects.size() == 1 && !light_can_come_back(prepared) &&
-      diffuse_enough(prepared)) {
+  if (scene.solver.diffusion.value_or(Diffusion::p1) == Diffusion::p1 && sky_alone(scene) &&
+      scene.objects.size() == 1 && !light_can_come_back(prepared) && diffuse_enough(prepared)) {
     plan.source = SourceModel::boundary_flux;
     plan.source_reason =
         "boundary_flux: all light comes evenly from the sky on one convex, index-matched, thick "

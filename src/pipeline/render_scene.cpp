@@ -5,18 +5,14 @@
 #include <algorithm>
 
 #include "core/image_io.h"
+#include "pipeline/layers.h"
 #include "pipeline/scene_setup.h"
+#include "pipeline/solution_file.h"
 #include "pipeline/solve_scene.h"
 #include "render/picture.h"
 
 namespace knotlight {
 namespace {
-
-constexpr std::size_t nodes_per_chunk = 512;
-
-Exitance chosen_exitance(const SolverSettings& settings) {
-  return settings.exitance.value_or(Exitance::p1);
-}
 
 const char* name_of(Exitance exitance) {
   switch (exitance) {
@@ -55,62 +51,45 @@ Metadata picture_metadata(const Scene& scene, const std::string& path, const Rep
   return metadata;
 }
 
-}  // namespace
-
-GlowingSurfaces glowing_surfaces(const PreparedScene& prepared, const SolvedScene& solved,
-                                 RunContext& run) {
-  const Scene& scene = prepared.scene;
-  GlowingSurfaces surfaces(scene.objects.size());
-  std::size_t total = 0;
-  for (const std::uint32_t index : prepared.translucent) {
-    surfaces[index].emplace(GlowingSurface{SurfaceGrid(scene.objects[index].shape),
-                                           {},
-                                           {},
-                                           solved.plan.source == SourceModel::boundary_flux});
-    total += static_cast<std::size_t>(surfaces[index]->grid.nodes().cols() * scene.channels);
-  }
-  Stage stage(run.stages, "surface", total);
-  for (std::size_t i = 0; i < prepared.translucent.size(); ++i) {
-    const std::uint32_t index = prepared.translucent[i];
-    GlowingSurface& surface = *surfaces[index];
-    const Points& nodes = surface.grid.nodes();
-    for (int c = 0; c < scene.channels; ++c) {
-      const SolvedChannel& solution = solved.objects[i][static_cast<std::size_t>(c)];
-      Eigen::VectorXd values = Eigen::VectorXd::Zero(nodes.cols());
-      // The picture is written all the same, marked as not to be trusted: what could not be solved
-      // stays dark in it.
-      if (solution.solved)
-        run.workers.for_chunks(static_cast<std::size_t>(nodes.cols()), nodes_per_chunk,
-                               [&](std::size_t, std::size_t begin, std::size_t end) {
-                                 const auto first = static_cast<Eigen::Index>(begin);
-                                 const auto count = static_cast<Eigen::Index>(end - begin);
-                                 values.segment(first, count) =
-                                     solution.U_d(nodes.middleCols(first, count));
-                                 stage.advance(end - begin);
-                               });
-      surface.U_d.push_back(std::move(values));
-      surface.leaving.emplace_back(scene.objects[index].translucent()->medium(c),
-                                   scene.solver.boundary, chosen_exitance(scene.solver));
-    }
-  }
-  return surfaces;
-}
-
-Image take_picture(const PreparedScene& prepared, const SolvedScene& solved, RunContext& run) {
-  const GlowingSurfaces surfaces = glowing_surfaces(prepared, solved, run);
-  const Shading shading(prepared.scene, *prepared.caster, surfaces);
+Image take_picture(const PreparedScene& prepared, const Shading& shading, RunContext& run) {
   Stage stage(run.stages, "picture", picture_tiles(prepared.scene.camera));
   return render_picture(prepared.scene.camera, shading, run.options.seed, run.workers, stage);
 }
 
-Report render_scene(const std::string& path, const std::vector<std::string>& outputs,
-                    RunContext& run, Scene& scene_out) {
-  const PreparedScene prepared = prepare_scene(path, run);
-  const SolvedScene solved = solve_scene(prepared, run);
-  const Image image = take_picture(prepared, solved, run);
+}  // namespace
+
+Image take_picture(const PreparedScene& prepared, const SolvedScene& solved, RunContext& run) {
+  const GlowingSurfaces surfaces = glowing_surfaces(prepared, solved, run);
+  return take_picture(prepared, Shading(prepared.scene, *prepared.caster, surfaces), run);
+}
+
+Report render_scene(const std::string& path, const RenderFiles& files, RunContext& run,
+                    Scene& scene_out) {
+  PreparedScene prepared = prepare_scene(path, run);
+  choose_for_picture(prepared.scene.solver);
+  const SolvedScene solved = files.solution.empty() ? solve_scene(prepared, run)
+                                                    : read_solution(files.solution, prepared, run);
+  const GlowingSurfaces surfaces = glowing_surfaces(prepared, solved, run);
+  // Before the picture: that may take long, and be interrupted.
+  if (!files.save_solution.empty()) {
+    const Stage stage(run.stages, "save solution", 0);
+    write_solution(files.save_solution, prepared, solved, surfaces, run);
+  }
+  const Shading shading(prepared.scene, *prepared.caster, surfaces);
+  const Image image = take_picture(prepared, shading, run);
+  PictureLayers layers;
+  if (!files.layers.empty())
+    layers = picture_layers(files.layers, prepared, solved, surfaces, shading, run);
+  if (!run.options.quiet)
+    for (const std::string& warning : layers.warnings) fmt::print(stderr, "warning: {}\n", warning);
   const Stage stage(run.stages, "write", 0);
-  for (const std::string& output : outputs)
-    write_image(output, image, picture_metadata(prepared.scene, path, solved.report, run));
+  const Metadata metadata = picture_metadata(prepared.scene, path, solved.report, run);
+  for (const std::string& picture : files.pictures) {
+    if (!layers.channels.empty() && holds_layers(picture))
+      write_picture_with_layers(picture, image, layers, metadata);
+    else
+      write_image(picture, image, metadata);
+  }
   scene_out = prepared.scene;
   return solved.report;
 }

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "trace/camera_rays.h"
 #include "scene/scene_reader.h"
+#include "trace/camera_rays.h"
 #include "trace/overlap.h"
 
 namespace knotlight {

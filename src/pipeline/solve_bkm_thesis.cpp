@@ -25,7 +25,7 @@ constexpr std::size_t volume_checks = 1024;
 constexpr double check_depth = 3.0;
 
 // A set of points with the right-hand sides there.
-struct Places {
+struct PointSets {
   SurfaceSamples surface;
   Points interior;
 };
@@ -42,7 +42,7 @@ constexpr int rays_per_knot = 256;  // to lights of some extent: no neighbour ev
 // The thesis's irradiance sampling: the light that enters at a knot becomes the value
 // exp(-sigma_t l) E / (4 pi) of an isotropic source at the knot l = 1/sigma_tr below it, and the
 // source is zero at all other knots [V09 6.21-6.24]: f = -3 sigma_tr times that value.
-void add_thesis_irradiance(SourceTerms& terms, const Places& knots, const Eigen::VectorXd& light,
+void add_thesis_irradiance(SourceTerms& terms, const PointSets& knots, const Eigen::VectorXd& light,
                            const ChannelProblem& p) {
   const double depth = 1.0 / p.medium.sigma_tr();
   const double per_light =
@@ -55,7 +55,7 @@ void add_thesis_irradiance(SourceTerms& terms, const Places& knots, const Eigen:
   }
 }
 
-RightHandSides right_hand_sides(const Places& places, const VolumePhotonMap (&maps)[2],
+RightHandSides right_hand_sides(const PointSets& places, const VolumePhotonMap (&maps)[2],
                                 bool at_knots, const ChannelProblem& p) {
   SourceTermOptions options;
   options.boundary = p.settings.boundary;
@@ -81,8 +81,8 @@ RightHandSides right_hand_sides(const Places& places, const VolumePhotonMap (&ma
 
 // Points that are not knots: on the surface, in the layer below it, and in the whole volume. Those
 // of the layer that would lie outside are left out.
-Places check_places(const ChannelProblem& p) {
-  Places places{boundary_check_points(p), {}};
+PointSets check_places(const ChannelProblem& p) {
+  PointSets places{boundary_check_points(p), {}};
   const SurfaceSamples roots = columns(
       stratified_surface_points(p.shape, layer_checks, true, p.seed + 1, Stream::check_points));
   const double depth = check_depth / p.medium.sigma_tr();
@@ -104,7 +104,7 @@ double largest(const Eigen::VectorXd& v) {
 }
 
 // Boundary and interior knots [V09 ch. 7].
-Places knot_places(const ChannelProblem& p, std::size_t count, std::size_t& dropped) {
+PointSets knot_places(const ChannelProblem& p, std::size_t count, std::size_t& dropped) {
   const BkmThesisSettings& settings = p.settings.thesis;
   SurfaceSamples surface = surface_knots(p.shape, settings.knot_layout, count, p.seed);
   const auto inside = [&](const Vec3& x) { return p.caster.inside(x, p.object); };
@@ -163,7 +163,7 @@ ChannelSolution solve_by_bkm_thesis(const ChannelProblem& p) {
 
   const std::size_t wanted = p.settings.knots.value_or(default_knots);
   std::size_t dropped = 0;
-  const Places knots = knot_places(p, wanted, dropped);
+  const PointSets knots = knot_places(p, wanted, dropped);
   const auto count = static_cast<std::size_t>(knots.surface.positions.cols());
 
   const VolumePhotonMap maps[2] = {VolumePhotonMap(p.light.halves[0].photons, p.medium),
@@ -179,7 +179,7 @@ ChannelSolution solve_by_bkm_thesis(const ChannelProblem& p) {
   const BkmField field = solver.solve(at_knots.f(), at_knots.g(), systems);
   const BkmField half_field = solver.solve(at_knots.halves[0].f, at_knots.halves[0].g);
 
-  const Places checks = check_places(p);
+  const PointSets checks = check_places(p);
   const RightHandSides at_checks = right_hand_sides(checks, maps, false, p);
   const Eigen::VectorXd f = at_checks.f().tail(checks.interior.cols());
   const Certificate certificate =

@@ -117,6 +117,7 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
                       {"discrete_energy_imbalance",
                        std::max(std::abs(halves[0].imbalance), std::abs(halves[1].imbalance))},
                       {"largest_grid_difference", estimate.largest}};
+  solution.on_grid = field;
   solution.U_d = [field](const Points& x) { return field.values(x); };
   return solution;
 }

@@ -136,12 +136,14 @@ Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
 }
 
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
-                            int channel, Method method, const ObjectGrids* grids,
-                            const IncidentLight& light, std::uint64_t seed, const Workers& workers,
-                            FactorCache& factors) {
-  const Medium medium = scene.objects[object].translucent()->medium(channel);
-  const DiffusionCoefficients coefficients = diffusion_coefficients(medium, scene.solver.boundary);
-  SolvedChannel result{light.model, {}, false, {}, {}};
+                            int channel, const Equation& equation, Method method,
+                            const ObjectGrids* grids, const IncidentLight& light,
+                            std::uint64_t seed, const Workers& workers, FactorCache& factors) {
+  const Medium& medium = equation.medium;
+  const DiffusionCoefficients& coefficients = equation.coefficients;
+  SolvedChannel result;
+  result.model = light.model;
+  result.equation = equation;
   const ChannelProblem problem{scene,        scene.objects[object].shape,
                                channel,      medium,
                                coefficients, scene.solver,
@@ -161,6 +163,7 @@ SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::ui
   result.U_d = solution.solved ? std::move(solution.U_d) : [](const Points& x) -> Eigen::VectorXd {
     return Eigen::VectorXd::Constant(x.cols(), std::numeric_limits<double>::quiet_NaN());
   };
+  if (solution.solved) result.on_grid = std::move(solution.on_grid);
   report.method = name_of(solution.method);
   report.figures = std::move(solution.figures);
   report.numerical_error = solution.numerical_error;

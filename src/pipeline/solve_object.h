@@ -2,9 +2,11 @@
 // -> verdict.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "pipeline/beyond_p1.h"
 #include "pipeline/channel_problem.h"
 #include "pipeline/report.h"
 
@@ -12,10 +14,14 @@ namespace knotlight {
 
 // A channel of an object, solved.
 struct SolvedChannel {
-  SourceModel model;
+  SourceModel model = SourceModel::photon_map;
   FieldValues U_d;  // not-a-number everywhere if the method did not come to a solution; with
                     // boundary_flux U_ri + U_d, see below
-  bool solved;
+  std::optional<GridField> on_grid;  // the same, of a method that has it on a grid
+  // The same at the nodes of the object's surface grid, of a solution that was read from a file.
+  std::optional<Eigen::VectorXd> on_surface;
+  bool solved = false;
+  Equation equation;  // beyond P1, U_d is a part of the field that pictures complete (gather.h)
   ChannelReport report;
   std::vector<std::string> failures;  // checks that failed, one sentence each
 
@@ -33,11 +39,11 @@ Eigen::VectorXd leaving_U_d(const SolvedChannel& channel, const Scene& scene,
                             const RayCaster& caster, std::uint32_t object, int channel_index,
                             const Points& positions, const Points& normals, std::uint64_t seed);
 
-// method: automatic stands for the better of the boundary methods. grids: of this object if the
-// method is grid, else null.
+// method: automatic stands for the better of the boundary methods. grids: of
+// this object if the method is grid, else null.
 SolvedChannel solve_channel(const Scene& scene, const RayCaster& caster, std::uint32_t object,
-                            int channel, Method method, const ObjectGrids* grids,
-                            const IncidentLight& light, std::uint64_t seed, const Workers& workers,
-                            FactorCache& factors);
+                            int channel, const Equation& equation, Method method,
+                            const ObjectGrids* grids, const IncidentLight& light,
+                            std::uint64_t seed, const Workers& workers, FactorCache& factors);
 
 }  // namespace knotlight

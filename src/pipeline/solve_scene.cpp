@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "pipeline/beyond_p1.h"
 #include "pipeline/plan.h"
 #include "pipeline/solve_grid.h"
 #include "trace/overlap.h"
@@ -96,6 +97,11 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
     }
   }
 
+  std::vector<std::optional<FeltSurface>> surface(prepared.translucent.size());
+  if (scene.solver.diffusion.value_or(Diffusion::p1) != Diffusion::p1)
+    for (std::size_t i = 0; i < surface.size(); ++i)
+      surface[i] = felt_surface(scene.objects[prepared.translucent[i]], scene.channels);
+
   // Every (object, channel) is a system of its own. Those of methods that use several threads
   // within one run one after the other; then the others side by side.
   const std::size_t systems = prepared.translucent.size() * channels;
@@ -105,10 +111,20 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
     const auto solve = [&](std::size_t system, const Workers& workers) {
       const std::size_t i = system / channels;
       const std::size_t channel = system % channels;
+      const double photon_power = light[channel][i].photon_power();
+      const Equation equation =
+          equation_for(scene, prepared.translucent[i], static_cast<int>(channel), plan.source,
+                       surface[i] ? &*surface[i] : nullptr);
+      if (equation.beyond_p1)
+        weigh_sources(
+            light[channel][i],
+            scene.objects[prepared.translucent[i]].translucent()->medium(static_cast<int>(channel)),
+            equation, *surface[i]);
       solved[system] =
           solve_channel(scene, *prepared.caster, prepared.translucent[i], static_cast<int>(channel),
-                        plan.methods[i].method, grids[i] ? &*grids[i] : nullptr, light[channel][i],
-                        run.options.seed, workers, factors);
+                        equation, plan.methods[i].method, grids[i] ? &*grids[i] : nullptr,
+                        light[channel][i], run.options.seed, workers, factors);
+      solved[system]->report.photon_power = photon_power;
       if (!keep_light) light[channel][i] = {};  // freed as we go
       stage.advance();
     };
@@ -163,9 +179,6 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
         result.report.failures.push_back(fmt::format(
             "{}: no photon met it, but hardly any was sent its way: it is small beside the others",
             where));
-      if (object.translucent()->emission.maxCoeff() > 0.0 && light_can_come_back(prepared))
-        result.report.failures.push_back(fmt::format(
-            "{}: light that it emits itself and that comes back to it is not counted", where));
       for (const std::string& reason : validity.reasons)
         result.report.failures.push_back(
             fmt::format("{}: diffusion does not hold: {}", where, reason));

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "trace/camera_rays.h"
 
 namespace knotlight {
 namespace {
 
+// Its multiples fill [0, 1) evenly, however many they are.
+constexpr double golden_ratio = std::numbers::phi - 1.0;
 constexpr int tile_size = 16;  // pixels; small enough to balance two cores at the end
 
 // Mean over the samples of one pixel, stratified in as many cells as there are samples.
@@ -19,12 +22,15 @@ Spectrum pixel(const Camera& camera, const CameraRays& rays, const Shading& shad
   while (camera.samples % columns != 0) --columns;
   const int rows = camera.samples / columns;
   Spectrum sum = Spectrum::Zero();
+  double depth_sample = rng.uniform();
   for (int s = 0; s < camera.samples; ++s) {
     const int column = s % columns;
     const int row = s / columns;
     const double dx = (column + rng.uniform()) / columns;
     const double dy = (row + rng.uniform()) / rows;
-    sum += shading.radiance(rays.ray(x + dx, y + dy), rng);
+    sum += shading.radiance(rays.ray(x + dx, y + dy), depth_sample, rng);
+    depth_sample += golden_ratio;
+    depth_sample -= std::floor(depth_sample);
   }
   return sum / camera.samples;
 }

@@ -13,10 +13,19 @@ namespace {
 constexpr double invisible = 1e-5;  // of the light behind an object
 // Rays to the lights per camera ray where the light that enters has to come off U (boundary_flux).
 constexpr int entering_samples = 16;
-constexpr int mirror_bounces = 4;      // R^4 < 1e-5 away from grazing angles
+constexpr int most_bounces = 4;        // R^4 < 1e-5 away from grazing angles
 constexpr double crease_cosine = 0.7;  // facets within 45 degrees are shaded as one smooth surface
 // Smoothed normals can face away from the eye at silhouettes; leaving light then takes this cosine.
 constexpr double least_cosine = 1e-3;
+
+// What a ray meets outside that is not sampled as a light of its own (Gather).
+Spectrum constant_environment(const Scene& scene) {
+  Spectrum sum = Spectrum::Zero();
+  for (const Light& light : scene.lights)
+    if (const auto* sky = std::get_if<EnvironmentLight>(&light); sky && sky->map == nullptr)
+      sum += sky->radiance;
+  return sum;
+}
 
 }  // namespace
 
@@ -28,38 +37,72 @@ Shading::Shading(const Scene& scene, const RayCaster& caster, const GlowingSurfa
                                   ? smooth_corner_normals(*mesh, crease_cosine)
                                   : std::vector<Vec3>());
   }
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+    gathers_.emplace_back();
+    if (surfaces[i] && !surfaces[i]->inside.channels.empty())
+      gathers_.back().emplace(
+          scene, caster, i, surfaces[i]->inside, [this](const OutsideRay& ray, Rng& rng) {
+            return radiance(ray.ray, {ray.bounces, ray.seen, rng.uniform()}, rng);
+          });
+  }
 }
 
-Spectrum Shading::radiance(const Ray& ray, Rng& rng) const {
-  return radiance(ray, mirror_bounces, rng);
+Spectrum Shading::radiance(const Ray& ray, double depth_sample, Rng& rng) const {
+  return radiance(ray, {most_bounces, true, depth_sample}, rng);
 }
 
-Spectrum Shading::radiance(const Ray& ray, int bounces, Rng& rng) const {
+Spectrum Shading::radiance(const Ray& ray, const Look& look, Rng& rng) const {
   const auto hit = caster_.nearest(ray);
   const double distance = hit ? hit->t : ray.t_max;
   if (const auto light = area_light_seen(scene_, {ray.origin, ray.direction, distance}))
-    return *light;
-  if (!hit) return environment_radiance(scene_, ray.direction);
+    return look.seen ? *light : Spectrum(Spectrum::Zero());
+  if (!hit)
+    return look.seen ? environment_radiance(scene_, ray.direction) : constant_environment(scene_);
   const Object& object = scene_.objects[hit->object];
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&object.material)) {
     const Vec3 n = hit->normal.dot(ray.direction) < 0.0 ? hit->normal : Vec3(-hit->normal);
     return diffuse->reflectance / std::numbers::pi *
            sample_irradiance(scene_, caster_, hit->position, n, rng);
   }
-  return translucent_radiance(ray, *hit, *object.translucent(), bounces, rng);
+  return translucent_radiance(ray, *hit, *object.translucent(), look, rng);
 }
 
 // Light that leaves the object, and the mirror image of the surroundings in its surface.
 Spectrum Shading::translucent_radiance(const Ray& ray, const Hit& hit,
-                                       const TranslucentMaterial& material, int bounces,
+                                       const TranslucentMaterial& material, const Look& look,
                                        Rng& rng) const {
   const Vec3 n = shading_normal(hit);
   const double cosine = std::clamp(-n.dot(ray.direction), least_cosine, 1.0);
+  if (!look.seen) return surface_radiance(hit, n, cosine, material, rng);
+  const double reflectance = fresnel_reflectance(cosine, material.ior);
+  Spectrum light;
+  if (gathers_[hit.object]) {
+    auto inwards = refract(ray.direction, n, material.ior);
+    // Smoothed normals may refract through the facet's back.
+    if (!inwards || inwards->dot(hit.normal) >= 0.0)
+      inwards = refract(ray.direction, hit.normal, material.ior);
+    light = (1.0 - reflectance) / (material.ior * material.ior) *
+            gathers_[hit.object]->radiance({hit.position, *inwards}, hit,
+                                           std::max(look.bounces - 1, 0), look.depth_sample, rng);
+  } else {
+    light = surface_radiance(hit, n, cosine, material, rng);
+    if (material.ior == 1.0) light += seen_through(ray, hit, material, look, rng);
+  }
+  if (reflectance == 0.0 || look.bounces == 0) return light;
+  const Vec3 mirrored = reflect(ray.direction, n);
+  if (mirrored.dot(hit.normal) <= 0.0) return light;  // into the facet: smoothing's artefact
+  return light + reflectance * radiance({hit.position, mirrored},
+                                        {look.bounces - 1, true, rng.uniform()}, rng);
+}
+
+// From the field on the surface alone.
+Spectrum Shading::surface_radiance(const Hit& hit, const Vec3& normal, double cosine,
+                                   const TranslucentMaterial& material, Rng& rng) const {
   const GlowingSurface& surface = *surfaces_[hit.object];
-  const Spectrum entered =
-      surface.counts_entering_light
-          ? mean_irradiance(scene_, caster_, hit.position, n, entering_samples, rng, material.ior)
-          : Spectrum(Spectrum::Zero());
+  const Spectrum entered = surface.counts_entering_light
+                               ? mean_irradiance(scene_, caster_, hit.position, normal,
+                                                 entering_samples, rng, material.ior)
+                               : Spectrum(Spectrum::Zero());
   Spectrum light;
   for (int c = 0; c < 3; ++c) {
     const auto channel = static_cast<std::size_t>(std::min(c, scene_.channels - 1));
@@ -67,23 +110,19 @@ Spectrum Shading::translucent_radiance(const Ray& ray, const Hit& hit,
                        DiffusionCoefficients::boundary_flux_U_ri(entered[c]);
     light[c] = surface.leaving[channel](U_d, cosine);
   }
-  if (material.ior == 1.0) return light + seen_through(ray, hit, material, bounces, rng);
-  const double reflectance = fresnel_reflectance(cosine, material.ior);
-  if (reflectance == 0.0 || bounces == 0) return light;
-  const Vec3 mirrored = reflect(ray.direction, n);
-  if (mirrored.dot(hit.normal) <= 0.0) return light;  // into the facet: smoothing's artefact
-  return light + reflectance * radiance({hit.position, mirrored}, bounces - 1, rng);
+  return light;
 }
 
 // What lies behind an index-matched object, weakened by exp(-sigma_t length). (A refracting one
 // bends and mirrors the ray many times; it is taken as opaque to unscattered light.)
 Spectrum Shading::seen_through(const Ray& ray, const Hit& hit, const TranslucentMaterial& material,
-                               int bounces, Rng& rng) const {
+                               const Look& look, Rng& rng) const {
   const auto way_out = caster_.nearest({hit.position, ray.direction}, hit.object);
-  if (!way_out || bounces == 0) return Spectrum::Zero();
+  if (!way_out || look.bounces == 0) return Spectrum::Zero();
   const Spectrum passed = (-(material.sigma_a + material.sigma_s) * way_out->t).exp();
   if (passed.maxCoeff() < invisible) return Spectrum::Zero();
-  return passed * radiance({way_out->position, ray.direction}, bounces - 1, rng);
+  return passed *
+         radiance({way_out->position, ray.direction}, {look.bounces - 1, true, rng.uniform()}, rng);
 }
 
 Vec3 Shading::shading_normal(const Hit& hit) const {

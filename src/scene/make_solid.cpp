@@ -56,6 +56,9 @@ void check_crossings(const TriangleMesh& mesh, std::vector<std::string>& warning
 
 TriangleMesh make_solid(TriangleMesh mesh, std::vector<std::string>& warnings) {
   check_finite(mesh);
+  if (!mesh.colours.empty())
+    warnings.push_back("vertex colours left out: they belong to diffuse objects");
+  mesh.colours.clear();
   drop_unused_vertices(mesh);
   const double tolerance = same_position_fraction * bounds(mesh).largest_extent();
   const std::size_t given = mesh.triangles.size();

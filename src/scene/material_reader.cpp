@@ -19,7 +19,7 @@ constexpr Range mean_cosine{-1.0, 1.0, true, true};
 constexpr Range refractive_index{1.0, 10.0};  // no transparent matter comes near 10
 
 TranslucentMaterial read_translucent(const YamlNode& node, SceneContext& context) {
-  check_keys(node, {"type", "sigma_a", "sigma_s", "g", "ior", "emission"});
+  check_keys(node, {"type", "sigma_a", "sigma_s", "g", "ior", "emission", "roughness"});
   TranslucentMaterial material;
   material.sigma_a = read_spectrum(require(node, "sigma_a", "the absorption (1/length)"),
                                    coefficient, context.coloured);
@@ -32,6 +32,8 @@ TranslucentMaterial read_translucent(const YamlNode& node, SceneContext& context
   if (const YamlNode* emission = node.find("emission")) {
     material.emission = read_spectrum(*emission, any_power, context.coloured);
   }
+  if (const YamlNode* roughness = node.find("roughness"))
+    material.roughness = read_number(*roughness, {0.0, 1.0});
   for (int c = 0; c < 3; ++c) {
     if (material.sigma_a[c] + material.sigma_s[c] <= 0.0) {
       fail(node, fmt::format("sigma_a + sigma_s is 0 in channel {}, expected > 0: the diffusion "

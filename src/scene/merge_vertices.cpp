@@ -102,9 +102,11 @@ void drop_unused_vertices(TriangleMesh& mesh) {
   for (std::size_t v = 0; v < new_index.size(); ++v) {
     if (new_index[v] == none) continue;
     mesh.vertices[kept] = mesh.vertices[v];
+    if (!mesh.colours.empty()) mesh.colours[kept] = mesh.colours[v];
     new_index[v] = kept++;
   }
   mesh.vertices.resize(kept);
+  if (!mesh.colours.empty()) mesh.colours.resize(kept);
   for (Triangle& t : mesh.triangles)
     for (std::uint32_t& v : t) v = new_index[v];
 }
@@ -116,10 +118,14 @@ std::size_t merge_vertices(TriangleMesh& mesh, double tolerance) {
   const double cell =
       std::max(cell_in_tolerances * tolerance, smallest_cell_fraction * box.largest_extent());
   DisjointSets sets(n);
+  const auto same_colour = [&mesh](std::uint32_t a, std::uint32_t b) {
+    return mesh.colours.empty() || (mesh.colours[a] == mesh.colours[b]).all();
+  };
   VertexGrid grid(mesh.vertices, box.lo, cell > 0.0 ? cell : 1.0);
   for (std::uint32_t i = 0; i < n; ++i) {
     bool is_copy = false;
     grid.for_near(mesh.vertices[i], tolerance, [&](std::uint32_t j) {
+      if (!same_colour(i, j)) return false;
       const double distance2 = (mesh.vertices[i] - mesh.vertices[j]).squaredNorm();
       if (distance2 <= tolerance * tolerance) sets.unite(i, j);
       return is_copy = distance2 == 0.0;

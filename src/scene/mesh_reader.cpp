@@ -15,6 +15,7 @@
 #include <iterator>
 
 #include "core/errors.h"
+#include "core/units.h"
 #include "scene/mesh_repair.h"
 
 namespace knotlight {
@@ -42,29 +43,40 @@ bool is_ply(const std::string& path) {
   return extension == ".ply";
 }
 
+// What has to be known of a PLY file before assimp reads it.
+struct PlyFile {
+  std::string mended;  // the file as assimp can read it; empty: as it is
+  bool integer_colours = false;
+};
+
 // assimp's reader never comes back from a PLY header without an end, and takes line breaks that
-// binary data happen to start with for more of the header. Returns the file with an edge, which it
-// leaves out, of one harmless byte before its data if they start so, and nothing if assimp can read
-// it as it is.
-std::string check_ply(const std::string& path) {
+// binary data happen to start with for more of the header. The file is mended by an edge, which it
+// leaves out, of one harmless byte before its data if they start so.
+PlyFile check_ply(const std::string& path) {
   constexpr std::size_t longest_header = 1 << 16;  // some 1000 lines; real ones have about 10
   std::ifstream file(path, std::ios::binary);
+  PlyFile ply;
   std::string header, line, before_elements;
-  bool is_binary = false, has_end = false;
+  bool is_binary = false, has_end = false, in_vertices = false;
   while (!has_end && header.size() < longest_header && std::getline(file, line)) {
     std::string words = line;
     words.erase(words.find_last_not_of(" \t\r") + 1);
     has_end = words == "end_header";
     is_binary = is_binary || words.rfind("format binary", 0) == 0;
+    if (words.rfind("element ", 0) == 0) in_vertices = words.rfind("element vertex", 0) == 0;
+    if (in_vertices && words.rfind("property ", 0) == 0 && words.ends_with("red"))
+      ply.integer_colours =
+          words.find("float") == std::string::npos && words.find("double") == std::string::npos;
     if (before_elements.empty() && words.rfind("element ", 0) == 0) before_elements = header;
     header += line + "\n";
   }
   if (!has_end) refuse(path, "cannot be read: the PLY header has no end_header");
   const int first = file.peek();
-  if (!is_binary || before_elements.empty() || (first != '\n' && first != '\r')) return {};
+  if (!is_binary || before_elements.empty() || (first != '\n' && first != '\r')) return ply;
   const std::string data{std::istreambuf_iterator<char>(file), {}};
-  return before_elements + "element edge 1\nproperty uchar unused\n" +
-         header.substr(before_elements.size()) + '\0' + data;
+  ply.mended = before_elements + "element edge 1\nproperty uchar unused\n" +
+               header.substr(before_elements.size()) + '\0' + data;
+  return ply;
 }
 
 // A face without corners makes assimp take its mesh for one of polygons, and stop the program when
@@ -80,6 +92,15 @@ void check_faces(const std::string& path, const aiScene& scene) {
 // The triangles of one part of the file, placed by its node; points and lines are ignored.
 void append(const aiMesh& part, const aiMatrix4x4& placement, TriangleMesh& mesh) {
   const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
+  if (part.HasVertexColors(0)) {
+    mesh.colours.resize(offset, Spectrum::Ones());  // parts so far had none
+    for (unsigned i = 0; i < part.mNumVertices; ++i) {
+      const aiColor4D& c = part.mColors[0][i];
+      mesh.colours.emplace_back(c.r, c.g, c.b);
+    }
+  } else if (!mesh.colours.empty()) {
+    mesh.colours.resize(offset + part.mNumVertices, Spectrum::Ones());
+  }
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D v = placement * part.mVertices[i];
     mesh.vertices.emplace_back(v.x, v.y, v.z);
@@ -108,7 +129,8 @@ void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& pa
 
 TriangleMesh read_mesh(const std::string& path) {
   check_file(path);
-  const std::string mended = is_ply(path) ? check_ply(path) : std::string();
+  const PlyFile ply = is_ply(path) ? check_ply(path) : PlyFile();
+  const std::string& mended = ply.mended;
   TriangleMesh mesh;
   try {
     Assimp::Importer importer;
@@ -132,6 +154,11 @@ TriangleMesh read_mesh(const std::string& path) {
   if (mesh.triangles.empty()) refuse(path, "has no triangles, expected a surface");
   for (const Vec3& v : mesh.vertices) {
     if (!v.allFinite()) refuse(path, "has coordinates that are not finite numbers");
+  }
+  for (Spectrum& colour : mesh.colours) {
+    if (!(colour >= 0.0).all() || !(colour <= 1.0).all())
+      refuse(path, "has vertex colours that are not numbers from 0 to 1");
+    if (ply.integer_colours) colour = colour.unaryExpr(&linear_from_srgb);
   }
   drop_unused_vertices(mesh);
   merge_vertices(mesh, same_position_fraction * bounds(mesh).largest_extent());

@@ -104,6 +104,8 @@ Shape read_mesh_object(const YamlNode& node, const Similarity& similarity, bool 
       const double extent = bounds(mesh).largest_extent();
       mesh = refine(std::move(mesh), extent / mesh_edges_per_extent);
     }
+    for (const Spectrum& colour : mesh.colours)
+      if (colour[0] != colour[1] || colour[1] != colour[2]) context.coloured = true;
     return transformed(std::move(mesh), similarity);
   } catch (const InputError& error) {
     fail(node, error.what());

@@ -58,13 +58,17 @@ struct TranslucentMaterial {
   Spectrum g = Spectrum::Zero();
   double ior = 1.0;
   Spectrum emission = Spectrum::Zero();  // E, W/length^3
+  double roughness = 0.0;                // of the surface, 0..1
 
+  // Slope of the surface's facets (core/microfacet.h); 0: smooth, or not to be seen since ior = 1.
+  double alpha() const { return ior == 1.0 ? 0.0 : roughness * roughness; }
   Medium medium(int channel) const {
     return {sigma_a[channel], sigma_s[channel], g[channel], ior, emission[channel]};
   }
 };
 struct DiffuseMaterial {
-  Spectrum reflectance = Spectrum::Zero();  // 0..1
+  // 0..1; times the colour of the surface where it has one (trace/surroundings.h).
+  Spectrum reflectance = Spectrum::Zero();
 };
 using Material = std::variant<TranslucentMaterial, DiffuseMaterial>;
 
@@ -81,6 +85,9 @@ struct Object {
 enum class SourceModel { photon_map, irradiance_sampling, irradiance_thesis, boundary_flux };
 enum class Method { automatic, bkm_thesis, bkm, mfs, lbkm, grid };
 enum class Exitance { gather, p1, lambert, mean_intensity };
+// What is solved for light that was scattered more than once: the P1 equation, or an equation for
+// the part of it that reaches far, and the near part exactly (core/asymptotic.h).
+enum class Diffusion { p1, grosjean, asymptotic };
 enum class Divergence { identity, differentiated };
 // Where light that has not been scattered yet is counted: at points along each ray inside the
 // object, weighted by what they are expected to receive, or at one random collision per photon.
@@ -109,6 +116,7 @@ struct SolverSettings {
   Method method = Method::automatic;
   Boundary boundary = Boundary::milne;
   std::optional<Exitance> exitance;
+  std::optional<Diffusion> diffusion;
   std::size_t photons = 2'000'000;   // emitted towards the translucent objects, per channel
   std::optional<std::size_t> knots;  // on the boundary of each object
   BkmThesisSettings thesis;

@@ -27,10 +27,15 @@ constexpr std::array<Choice<Boundary>, 2> boundaries{{
     {"marshak", Boundary::marshak},
 }};
 constexpr std::array<Choice<Exitance>, 4> exitances{{
-    {"gather", Exitance::gather, false},
+    {"gather", Exitance::gather},
     {"p1", Exitance::p1},
     {"lambert", Exitance::lambert},
     {"mean_intensity", Exitance::mean_intensity},
+}};
+constexpr std::array<Choice<Diffusion>, 3> diffusions{{
+    {"asymptotic", Diffusion::asymptotic},
+    {"grosjean", Diffusion::grosjean},
+    {"p1", Diffusion::p1},
 }};
 constexpr std::array<Choice<Divergence>, 2> divergences{{
     {"identity", Divergence::identity},
@@ -68,9 +73,10 @@ std::size_t default_photons(double tolerance) {
 
 SolverSettings read_solver(const YamlNode& node) {
   std::vector<std::string> keys{
-      "tolerance",  "source",          "method",           "boundary",        "exitance",
-      "photons",    "knots",           "estimate_photons", "divergence",      "deposits",
-      "similarity", "returning_light", "estimator",        "estimate_radius", "irradiance_samples"};
+      "tolerance",        "source",     "method",          "boundary",
+      "exitance",         "diffusion",  "photons",         "knots",
+      "estimate_photons", "divergence", "deposits",        "similarity",
+      "returning_light",  "estimator",  "estimate_radius", "irradiance_samples"};
   keys.insert(keys.end(), bkm_thesis_keys.begin(), bkm_thesis_keys.end());
   check_keys(node, keys);
   SolverSettings solver;
@@ -81,6 +87,7 @@ SolverSettings read_solver(const YamlNode& node) {
   if (const auto* key = node.find("method")) solver.method = read_choice(*key, methods);
   if (const auto* key = node.find("boundary")) solver.boundary = read_choice(*key, boundaries);
   if (const auto* key = node.find("exitance")) solver.exitance = read_choice(*key, exitances);
+  if (const auto* key = node.find("diffusion")) solver.diffusion = read_choice(*key, diffusions);
   solver.photons = default_photons(solver.tolerance);
   if (const auto* key = node.find("photons")) solver.photons = read_count(*key, 1, max_photons);
   if (const auto* key = node.find("knots")) {

@@ -7,6 +7,7 @@
 
 #include "core/fresnel.h"
 #include "core/sampling.h"
+#include "trace/surroundings.h"
 
 namespace knotlight {
 namespace {
@@ -84,6 +85,16 @@ bool irradiance_is_exact(const Scene& scene) {
 
 }  // namespace
 
+std::optional<Hit> opaque_contact(const Scene& scene, const RayCaster& caster, const Vec3& p,
+                                  const Vec3& d) {
+  const double touch = caster.touching_distance();
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].translucent() != nullptr) continue;
+    if (auto hit = caster.nearest({p - touch * d, d, 2.0 * touch}, i)) return hit;
+  }
+  return std::nullopt;
+}
+
 Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& a,
                        const Vec3& direction, double distance) {
   const Ray whole{a, direction, distance - caster.skip_distance()};
@@ -99,6 +110,8 @@ Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& 
       optical_depth +=
           (material->sigma_a + material->sigma_s) * caster.path_length_inside(whole, hit->object);
     counted[hit->object] = true;
+    const bool leaving = direction.dot(hit->normal) > 0.0;
+    if (leaving && opaque_contact(scene, caster, hit->position, direction)) return Spectrum::Zero();
     rest.origin = hit->position;
     rest.t_max -= hit->t;
   }
@@ -119,7 +132,11 @@ Spectrum mean_irradiance(const Scene& scene, const RayCaster& caster, const Vec3
   Spectrum sum = Spectrum::Zero();
   for (int i = 0; i < needed; ++i)
     sum += sample_irradiance(scene, caster, position, normal, rng, ior);
-  return sum / needed;
+  if (!surroundings_reflect(scene)) return sum / needed;
+  Spectrum reflected = Spectrum::Zero();
+  for (int i = 0; i < samples; ++i)
+    reflected += sample_surroundings_irradiance(scene, caster, position, normal, rng, ior);
+  return sum / needed + reflected / samples;
 }
 
 std::optional<Spectrum> area_light_seen(const Scene& scene, const Ray& ray) {

@@ -9,6 +9,11 @@
 
 namespace knotlight {
 
+// The surface of an opaque object that the line through p along d crosses within the touching
+// distance of p: what an object stands on, for example, which a search from p would skip.
+std::optional<Hit> opaque_contact(const Scene& scene, const RayCaster& caster, const Vec3& p,
+                                  const Vec3& d);
+
 // Fraction (0..1, per channel) of light that travels unscattered from a towards b. Diffuse and
 // refracting objects block it; index-matched translucent ones let exp(-sigma_t * length) through.
 Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& a,
@@ -20,8 +25,9 @@ Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& 
 Spectrum sample_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
                            const Vec3& normal, Rng& rng, double ior = 1.0);
 
-// Mean of `samples` such estimates; of one if that is exact, since all lights are points or
-// directions.
+// Mean of `samples` such estimates, of one if that is exact, since all lights are points or
+// directions; and, where the scene has reflecting diffuse objects, of as many estimates of the
+// irradiance by those in sight (trace/surroundings.h), which is added.
 Spectrum mean_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
                          const Vec3& normal, int samples, Rng& rng, double ior);
 

@@ -172,7 +172,7 @@ TEST_F(CommandLine, NoBarsInAPipe) {
 
 TEST_F(CommandLine, WrongWords) {
   expect_bad_input(run("rendr scene.yaml"), "did you mean 'render'?");
-  expect_bad_input(run(""), "render, probe, compare, validate, stability or info");
+  expect_bad_input(run(""), "render, reference, probe, compare, validate, stability, info or view");
   expect_bad_input(run("render"), "scene");
   expect_bad_input(run("render scene.yaml --threads -3"), "--threads");
   expect_bad_input(run("render scene.yaml --seed x"), "--seed");

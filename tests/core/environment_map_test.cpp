@@ -76,6 +76,7 @@ TEST(EnvironmentMap, SamplesHaveTheStatedDensity) {
   const int n = 200'000;
   std::vector<double> counts(width * height, 0.0), expected(width * height, 0.0);
   Rng rng(2, Stream::tests, 1);
+  int differing = 0;
   for (int i = 0; i < n; ++i) {
     const double u = rng.uniform(), v = rng.uniform();
     const EnvironmentMap::Sample sample = map.sample(u, v);
@@ -88,7 +89,10 @@ TEST(EnvironmentMap, SamplesHaveTheStatedDensity) {
     const double solid_angle =
         2 * pi / width * (std::cos(pi * row / height) - std::cos(pi * (row + 1) / height));
     expected[pixel] = n * sample.pdf * solid_angle;
+    // Across the border between two pixels rounding may decide.
+    differing += std::abs(map.pdf(sample.direction) - sample.pdf) > 1e-9 * sample.pdf ? 1 : 0;
   }
+  EXPECT_LE(differing, 1);
   double total = 0.0;
   for (const double e : expected) total += e;
   EXPECT_NEAR(total / n, 1.0, 1e-9);  // every pixel that shines was met; the densities add up to 1

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "core/errors.h"
 #include "core/file_io.h"
@@ -81,6 +82,35 @@ TEST_F(ImageIo, ReadingBadFiles) {
   EXPECT_THROW(read_image(path("none.exr")), InputError);
   std::ofstream(path("text.exr")) << "not a picture";
   EXPECT_THROW(read_image(path("text.exr")), InputError);
+}
+
+TEST_F(ImageIo, LayersComeBackAsTheyWere) {
+  const std::vector<Layer> layers = {
+      {"R", {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F}},
+      {"G", {0.5F, 0.25F, 1e-30F, 1e30F, 0.0F, 1.0F}},
+      {"B", {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F}},
+      {"depth", {std::numeric_limits<float>::infinity(), -1.0F, 0.1F, 0.2F, 0.3F, 0.4F}},
+      {"variance.R", {6.0F, 5.0F, 4.0F, 3.0F, 2.0F, 1.0F}}};
+  write_layers(path("a.exr"), 3, 2, layers, {{"knotlight:units", "mm"}});
+  const LayeredImage back = read_layers(path("a.exr"));
+  EXPECT_EQ(back.width, 3);
+  EXPECT_EQ(back.height, 2);
+  EXPECT_EQ(back.layers.size(), layers.size());
+  for (const Layer& layer : layers) EXPECT_EQ(back.values(layer.channel), layer.values);
+  EXPECT_THROW((void)back.values("variance.G"), InputError);
+  // Programs that know nothing of layers see R, G, B.
+  const Image colours = read_image(path("a.exr"));
+  EXPECT_TRUE((colours.at(1, 1) == Spectrum(4.0, 0.0, 1.0)).all());
+}
+
+TEST_F(ImageIo, LayersThatCannotBeWritten) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(write_layers(path("a.exr"), 1, 1, {{"Y", {nan}}}, {}), std::runtime_error);
+  EXPECT_THROW(write_layers(path("a.png"), 1, 1, {{"R", {1.0F}}}, {}), InputError);
+  EXPECT_EQ(files(), 0U);
+  EXPECT_THROW(read_layers(path("none.exr")), InputError);
+  std::ofstream(path("text.exr")) << "not a picture";
+  EXPECT_THROW(read_layers(path("text.exr")), InputError);
 }
 
 TEST_F(ImageIo, FailedWriteLeavesTheOldFileAndNoTrace) {

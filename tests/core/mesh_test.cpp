@@ -34,6 +34,18 @@ TEST(Mesh, BoxHasItsMeasures) {
     EXPECT_GT(box.normal(t).dot(box.corner(t, 0) - bounds(box).center()), 0.2);
 }
 
+// Colours linear in the position stay so.
+TEST(Mesh, RefiningInterpolatesColours) {
+  TriangleMesh quad = quad_mesh(Vec3::Zero(), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  const auto colour = [](const Vec3& v) { return Spectrum(0.5 + 0.5 * v.x(), 0.25 * v.y(), 1.0); };
+  for (const Vec3& v : quad.vertices) quad.colours.push_back(colour(v));
+  const TriangleMesh fine = refine(quad, 0.1);
+  ASSERT_EQ(fine.colours.size(), fine.vertices.size());
+  EXPECT_GT(fine.vertices.size(), 400U);
+  for (std::size_t i = 0; i < fine.vertices.size(); ++i)
+    EXPECT_TRUE((fine.colours[i] - colour(fine.vertices[i])).abs().maxCoeff() < rounding);
+}
+
 TEST(Mesh, QuadFacesUCrossV) {
   const TriangleMesh quad = quad_mesh({1, 2, 3}, {2, 0, 0}, {0, 0, 0.5});
   EXPECT_NEAR(surface_area(quad), 4.0 * 2.0 * 0.5, rounding);

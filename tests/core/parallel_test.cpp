@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <numeric>
 #include <stdexcept>
 #include <vector>
@@ -34,6 +35,23 @@ TEST(Workers, PassesTheErrorOn) {
                                        if (chunk == 40) throw std::runtime_error("no");
                                      }),
                std::runtime_error);
+}
+
+// No chunk begins after the word; those under way end.
+TEST(Workers, StopWhenCancelled) {
+  for (const int threads : {1, 3}) {
+    std::atomic<bool> cancelled{false};
+    std::atomic<int> begun{0};
+    EXPECT_THROW(Workers(threads, &cancelled)
+                     .for_chunks(1000, 1,
+                                 [&](std::size_t, std::size_t, std::size_t) {
+                                   if (++begun == 40) cancelled = true;
+                                 }),
+                 Cancelled);
+    EXPECT_LT(begun, 40 + threads);
+    cancelled = false;
+    Workers(threads, &cancelled).for_chunks(10, 1, [](std::size_t, std::size_t, std::size_t) {});
+  }
 }
 
 TEST(Stages, AddUpByNameInOrder) {

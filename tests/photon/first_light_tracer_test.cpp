@@ -108,10 +108,11 @@ TEST(FirstLight, OpaqueInclusionsCastShadows) {
 // deliver. Power, its first moments and mean squared radius in 400 000 random photons, each within
 // 5 standard errors from 64 batches (a false alarm in 500 000 checks); the low-discrepancy error is
 // far smaller.
-TEST(FirstLight, AgreesWithRandomWalks) {
+void expect_agreement_with_walks(double roughness) {
   const Medium medium{0.5, 3.5, 0.0, 1.4, 0.0};
-  const Scene scene = scene_of({sky(1.0), parallel_light(Vec3(1, 0, -1), 2.0)},
-                               {translucent(torus_mesh(32, 16), medium)});
+  Scene scene = scene_of({sky(1.0), parallel_light(Vec3(1, 0, -1), 2.0)},
+                         {translucent(torus_mesh(32, 16), medium)});
+  std::get<TranslucentMaterial>(scene.objects[0].material).roughness = roughness;
   const auto moments = [](const VolumePhoton& p) {
     return Eigen::Vector4d(p.power, p.power * p.position.x(), p.power * p.position.z(),
                            p.power * p.position.squaredNorm());
@@ -134,6 +135,11 @@ TEST(FirstLight, AgreesWithRandomWalks) {
   const Eigen::Vector4d error =
       ((squares / batches - mean.cwiseAbs2()) / (batches - 1.0)).cwiseSqrt();
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(expected[i], mean[i], sigmas * error[i]) << i;
+}
+
+TEST(FirstLight, AgreesWithRandomWalks) {
+  expect_agreement_with_walks(0.0);
+  expect_agreement_with_walks(0.6);
 }
 
 // rms error over 8 replicates of the centroid's depth under a beam, which is smooth in everything:

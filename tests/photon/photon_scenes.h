@@ -26,8 +26,8 @@ inline Object translucent(Shape shape, const Medium& m) {
   return {"translucent", std::move(shape), material};
 }
 
-inline Object diffuse(Shape shape) {
-  return {"diffuse", std::move(shape), DiffuseMaterial{Spectrum::Constant(0.5)}};
+inline Object diffuse(Shape shape, double reflectance = 0.0) {
+  return {"diffuse", std::move(shape), DiffuseMaterial{Spectrum::Constant(reflectance)}};
 }
 
 inline DirectionalLight parallel_light(const Vec3& direction, double irradiance) {

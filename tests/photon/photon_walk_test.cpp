@@ -158,6 +158,33 @@ TEST(PhotonWalk, LightInsideTheObject) {
   expect_share(r.audit[0].escaped_unscattered, r.audit[0], e * (1.0 - R) / (1.0 - R * e * e));
 }
 
+// Around a body that absorbs nothing, in uniform light, the radiance inside is n^2 L however rough
+// the surface, so the mean path per arrival is n^2 4V/S: the rough surface lets light in and out
+// alike.
+TEST(PhotonWalk, RoughSurfacesKeepTheBalance) {
+  for (const double roughness : {0.3, 1.0}) {
+    Scene scene = scene_of({testing_scenes::sky(1.0)},
+                           {translucent(Sphere{Vec3::Zero(), 1.0}, {0.0, 3.0, 0.0, 1.4, 0.0})});
+    std::get<TranslucentMaterial>(scene.objects[0].material).roughness = roughness;
+    const TraceResult r = trace(scene, Orders::all, emitted);
+    const EnergyAudit& a = r.audit[0];
+    expect_sums(a);
+    EXPECT_EQ(a.absorbed, 0.0);
+    EXPECT_LT(a.lost, 1e-6 * a.incident);
+    EXPECT_NEAR(a.interactions / 3.0 / a.incident, 1.96 * 4.0 / 3.0,
+                sigmas * a.standard_error_interactions / 3.0 / a.incident);
+    EXPECT_LT(a.standard_error_interactions, 0.02 * a.interactions);
+  }
+}
+
+TEST(PhotonWalk, RoughnessOfAMatchedSurfaceIsNotSeen) {
+  Scene scene = scene_of({testing_scenes::sky(1.0)},
+                         {translucent(Sphere{Vec3::Zero(), 1.0}, {0.1, 3.0, 0.0, 1.0, 0.0})});
+  const double smooth = trace(scene, Orders::all, 1000).audit[0].interactions;
+  std::get<TranslucentMaterial>(scene.objects[0].material).roughness = 0.7;
+  EXPECT_EQ(trace(scene, Orders::all, 1000).audit[0].interactions, smooth);
+}
+
 // Light that leaves a concave object arrives at it again. Under uniform radiance and without
 // absorption the space around it stays filled with that radiance, so the arrivals, first and later
 // ones together, are pi L S; and per arrival the mean path inside is n^2 4 V/S. Almost nothing may

@@ -36,7 +36,9 @@ struct BallOnFloor {
     SurfaceGrid grid(scene.objects[0].shape, 8);
     const Eigen::VectorXd U_d = Eigen::VectorXd::Constant(grid.nodes().cols(), 0.5);
     const LeavingRadiance leaving(wax.medium(0), Boundary::marshak, Exitance::lambert);
-    surfaces.emplace_back(GlowingSurface{grid, {U_d}, {leaving}});
+    surfaces.emplace_back(GlowingSurface(grid));
+    surfaces.back()->U_d = {U_d};
+    surfaces.back()->leaving = {leaving};
     surfaces.emplace_back(std::nullopt);
   }
 

@@ -65,6 +65,57 @@ void expect_contains(const std::string& text, const std::string& part) {
 
 // ---------------------------------------------------------------- files
 
+// Integer colours are sRGB: 188 of 255 is 0.5028865 of the light; floating-point ones are linear.
+TEST(ReadMesh, ColoursOfVertices) {
+  const auto ply = [](const std::string& type, const std::string& colours) {
+    return fmt::format(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty {0} red\nproperty {0} green\nproperty {0} blue\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 {1}\n1 0 0 {1}\n0 1 0 {1}\n3 0 1 2\n",
+        type, colours);
+  };
+  const auto check = [](const std::string& extension, const std::string& content,
+                        const Spectrum& expected) {
+    const TemporaryFile file(extension, content);
+    const TriangleMesh mesh = read_mesh(file.path());
+    ASSERT_EQ(mesh.colours.size(), mesh.vertices.size());
+    for (const Spectrum& colour : mesh.colours)
+      EXPECT_LT((colour - expected).abs().maxCoeff(), single_precision) << extension;
+  };
+  check(".ply", ply("uchar", "188 255 0"), {0.5028865, 1.0, 0.0});
+  check(".ply", ply("float", "0.25 1 0"), {0.25, 1.0, 0.0});
+  check(".obj", "v 0 0 0 0.25 0.5 1\nv 1 0 0 0.25 0.5 1\nv 0 1 0 0.25 0.5 1\nf 1 2 3\n",
+        {0.25, 0.5, 1.0});
+  EXPECT_TRUE(read_mesh(TemporaryFile(".obj", test::as_obj(icosphere(1))).path()).colours.empty());
+  for (const char* wrong : {"1.5 0 0", "0 -0.1 0", "0 0 nan"})
+    expect_contains(read_error(".ply", ply("float", wrong)), "colours that are not numbers from 0");
+}
+
+// Where colours jump, vertices at one place stay apart; a solid's vertices are merged by place
+// alone, and its colours are left out.
+TEST(ReadMesh, ColoursKeepVerticesApartInSurfacesButNotInSolids) {
+  TriangleMesh soup = test::triangle_soup(icosphere(0));
+  for (std::size_t i = 0; i < soup.vertices.size(); ++i)
+    soup.colours.push_back(Spectrum::Constant(i / 3 < 10 ? 1.0 : 0.5));
+  TriangleMesh merged = soup;
+  merge_vertices(merged, 0.0);
+  ASSERT_EQ(merged.colours.size(), merged.vertices.size());
+  EXPECT_GT(merged.vertices.size(), 12U);
+  for (std::size_t t = 0; t < 20; ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = merged.triangles[t][static_cast<std::size_t>(i)];
+      EXPECT_EQ(merged.vertices[v], soup.corner(t, i));
+      EXPECT_EQ(merged.colours[v][0], t < 10 ? 1.0 : 0.5);
+    }
+  std::vector<std::string> warnings;
+  const TriangleMesh solid = make_solid(soup, warnings);
+  EXPECT_EQ(solid.vertices.size(), 12U);
+  EXPECT_TRUE(solid.colours.empty());
+  ASSERT_EQ(warnings.size(), 1U);
+  expect_contains(warnings[0], "vertex colours left out");
+}
+
 TEST(ReadMesh, EveryFormatGivesTheSameSolid) {
   const TriangleMesh sphere = icosphere(2, {0.3, -0.2, 5.0});
   const double volume = signed_volume(sphere);

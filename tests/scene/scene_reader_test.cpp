@@ -34,7 +34,7 @@ lights:
   - {type: area, center: [0, 0, 4], u: [1, 0, 0], v: [0, -2, 0], radiance: 5}
   - {type: environment, radiance: 0.5}
 materials:
-  wax: {type: translucent, sigma_a: 0.02, sigma_s: 20, g: 0.25, ior: 1.4, emission: 0.1}
+  wax: {type: translucent, sigma_a: 0.02, sigma_s: 20, g: 0.25, ior: 1.4, emission: 0.1, roughness: 0.3}
   floor: {type: diffuse, reflectance: 0.5}
 objects:
   - {name: tetra, mesh: tetra.ply, material: wax, scale: 2, rotate: [90, 0, 90], translate: [10, 0, 0]}
@@ -141,6 +141,8 @@ TEST(SceneReader, ReadsMaterialsAndSolver) {
   EXPECT_EQ(medium.g, 0.25);
   EXPECT_EQ(medium.ior, 1.4);
   EXPECT_EQ(medium.emission, 0.1);
+  EXPECT_EQ(wax->roughness, 0.3);
+  EXPECT_EQ(wax->alpha(), 0.3 * 0.3);
   EXPECT_EQ(scene.objects[3].translucent(), nullptr);
   EXPECT_TRUE((std::get<DiffuseMaterial>(scene.objects[3].material).reflectance == 0.5).all());
 
@@ -169,6 +171,37 @@ TEST(SceneReader, ReadsMaterialsAndSolver) {
   EXPECT_EQ(scene.solver.estimator, DensityEstimator::kernel);
   EXPECT_EQ(scene.solver.estimate_radius, 0.5);
   EXPECT_EQ(scene.solver.irradiance_samples, 5000u);
+}
+
+// Grey vertices leave one channel, coloured ones make it three; on a translucent object they are
+// left out with a warning.
+TEST(SceneReader, ColouredVertices) {
+  const ScratchFolder folder;
+  std::string ply = replaced(tetra_ply, "property float z\n",
+                             "property float z\nproperty float red\nproperty float green\n"
+                             "property float blue\n");
+  for (const char* vertex : {"0 0 0", "1 0 0", "0 1 0", "0 0 1"})
+    ply = replaced(ply, std::string("\n") + vertex + "\n",
+                   std::string("\n") + vertex + " 0.5 0.5 0.5\n");
+  folder.write("grey.ply", ply);
+  folder.write("red.ply", replaced(ply, "1 0 0 0.5", "1 0 0 0.75"));
+  const auto scene_with = [&](const std::string& mesh, const std::string& material) {
+    return read_scene(folder.write(
+        "scene.yaml", replaced(replaced(small_scene, "materials: {",
+                                        "materials: {floor: {type: diffuse, reflectance: 1}, "),
+                               "objects: [",
+                               "objects: [{mesh: " + mesh + ", material: " + material +
+                                   ", translate: [9, 0, 0]}, ")));
+  };
+  EXPECT_EQ(scene_with("grey.ply", "floor").channels, 1);
+  const Scene red = scene_with("red.ply", "floor");
+  EXPECT_EQ(red.channels, 3);
+  EXPECT_EQ(std::get<TriangleMesh>(red.objects[0].shape).colours.size(), 4U);
+  EXPECT_TRUE(red.warnings.empty());
+  const Scene wax = scene_with("red.ply", "wax");
+  EXPECT_EQ(wax.channels, 1);
+  ASSERT_EQ(wax.warnings.size(), 1U);
+  EXPECT_NE(wax.warnings[0].find("objects.0.mesh: vertex colours left out"), std::string::npos);
 }
 
 TEST(SceneReader, ScalesThenRotatesThenTranslates) {

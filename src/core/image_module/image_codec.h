@@ -12,7 +12,7 @@ template <typename T>
 struct PixelBlock {
   int width = 0;
   int height = 0;
-  std::vector<T> values;  // 3 per pixel, row by row from the top
+  std::vector<T> values;  // 3, or one per layer, per pixel; row by row from the top
 };
 
 struct ImageCodec {
@@ -22,6 +22,10 @@ struct ImageCodec {
   // Format by the path's extension; throw std::runtime_error.
   void (*write_float)(const std::string& path, const PixelBlock<float>&, const Metadata&);
   void (*write_bytes)(const std::string& path, const PixelBlock<unsigned char>&, const Metadata&);
+  // Any number of named float channels, interleaved in the order of the names.
+  void (*write_layers)(const std::string& path, const PixelBlock<float>&,
+                       const std::vector<std::string>& names, const Metadata&);
+  LayeredImage (*read_layers)(const std::string& path);
 };
 
 // The module's entry, found by name in libknotlight_images.so.

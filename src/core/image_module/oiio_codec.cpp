@@ -10,6 +10,8 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "core/errors.h"
 
@@ -17,10 +19,12 @@ namespace knotlight {
 namespace {
 
 template <typename T>
-void write_pixels(const std::string& path, const PixelBlock<T>& pixels, const Metadata& metadata) {
+void write_pixels(const std::string& path, const PixelBlock<T>& pixels,
+                  const std::vector<std::string>& names, const Metadata& metadata) {
   constexpr bool is_float = std::is_same_v<T, float>;
   const OIIO::TypeDesc type = is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-  OIIO::ImageSpec spec(pixels.width, pixels.height, 3, type);
+  OIIO::ImageSpec spec(pixels.width, pixels.height, static_cast<int>(names.size()), type);
+  spec.channelnames = names;
   for (const auto& [key, value] : metadata) spec.attribute(key, value);
   // OpenImageIO would put the clock in; the same scene and seed must give the same file.
   spec.attribute("DateTime", "2000:01:01 00:00:00");
@@ -36,12 +40,35 @@ void write_pixels(const std::string& path, const PixelBlock<T>& pixels, const Me
 
 void write_float(const std::string& path, const PixelBlock<float>& pixels,
                  const Metadata& metadata) {
-  write_pixels(path, pixels, metadata);
+  write_pixels(path, pixels, {"R", "G", "B"}, metadata);
 }
 
 void write_bytes(const std::string& path, const PixelBlock<unsigned char>& pixels,
                  const Metadata& metadata) {
-  write_pixels(path, pixels, metadata);
+  write_pixels(path, pixels, {"R", "G", "B"}, metadata);
+}
+
+void write_channels(const std::string& path, const PixelBlock<float>& pixels,
+                    const std::vector<std::string>& names, const Metadata& metadata) {
+  write_pixels(path, pixels, names, metadata);
+}
+
+LayeredImage read_channels(const std::string& path) {
+  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path);
+  if (!in) throw InputError(fmt::format("{}: cannot read the picture: {}", path, OIIO::geterror()));
+  const OIIO::ImageSpec& spec = in->spec();
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  const std::size_t pixels = static_cast<std::size_t>(spec.width) * spec.height;
+  std::vector<float> interleaved(pixels * channels);
+  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, interleaved.data()))
+    throw InputError(fmt::format("{}: cannot read the picture: {}", path, in->geterror()));
+  LayeredImage image{spec.width, spec.height, {}};
+  for (std::size_t i = 0; i < channels; ++i) {
+    Layer layer{spec.channelnames[i], std::vector<float>(pixels)};
+    for (std::size_t k = 0; k < pixels; ++k) layer.values[k] = interleaved[k * channels + i];
+    image.layers.push_back(std::move(layer));
+  }
+  return image;
 }
 
 Image read(const std::string& path) {
@@ -74,6 +101,7 @@ Image read(const std::string& path) {
 
 extern "C" const knotlight::ImageCodec* knotlight_image_codec() {
   static const knotlight::ImageCodec codec{knotlight::read, knotlight::write_float,
-                                           knotlight::write_bytes};
+                                           knotlight::write_bytes, knotlight::write_channels,
+                                           knotlight::read_channels};
   return &codec;
 }

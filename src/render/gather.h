@@ -1,0 +1,109 @@
+// The radiance inside a translucent object, where the eye looks into it: what the medium sends
+// along the (refracted) view ray, collected over its whole length.
+//
+//   L(x, -w) = int_0^S exp(-sigma_t s) J(x + s w) ds + exp(-sigma_t S) L_behind
+//
+//   J = sigma_s (U_d + (3 g / 4 pi) F_d . (-w))         scattered before: the diffusion solution,
+//     + sigma_s int p L_ri dw'                          scattered once: straight from the lights,
+//     + E / (4 pi)                                      emitted
+//
+// F_d = -(4 pi / 3 sigma_tr) grad U_d + Q_ri / sigma_tr, Q_ri = g sigma_s F_ri [I78].
+//
+// Beyond P1 (core/asymptotic.h) U_d is the sum of the solution, which is then the asymptotic part,
+// times the layer weight of the depth, and of the transient part: light on the way from its first
+// scattering to its second,
+//
+//   int epsilon(sigma_t r) exp(-sigma_t r) (sigma_s U_ri + E / 4 pi)(x + r w') dr dw' / (4 pi).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/asymptotic.h"
+#include "core/rng.h"
+#include "core/surface_layer.h"
+#include "grid/solver.h"
+#include "scene/scene.h"
+#include "trace/ray_caster.h"
+
+namespace knotlight {
+
+// One object's solution, where it can be looked up anywhere inside.
+struct InsideField {
+  struct Channel {
+    GridField U_d;  // W/(length^2 sr)
+    std::optional<PointSourceField> beyond_p1;
+    double k = 0.0;  // extrapolation length that U_d was solved with
+  };
+  std::vector<Channel> channels;
+  std::optional<FeltSurface> surface;  // where some channel goes beyond P1
+  // U_d holds all light, that which has not been scattered yet too (the source model
+  // boundary_flux): nothing is to be added from the lights.
+  bool counts_entering_light = false;
+};
+
+// How a ray that leaves the object is to be followed.
+struct OutsideRay {
+  Ray ray;
+  int bounces;  // surfaces of other objects it may still pass or be mirrored by
+  // Whether the eye follows it, and sees all; or light is looked for where it leads, then the
+  // lights that are sampled one by one do not count, and objects glow as their surface does.
+  bool seen;
+};
+using OutsideRadiance = std::function<Spectrum(const OutsideRay& ray, Rng& rng)>;
+
+class Gather {
+ public:
+  // All must outlive it; caster was built from scene.objects in order. outside: what a ray meets
+  // that leaves the object.
+  Gather(const Scene& scene, const RayCaster& caster, std::uint32_t object,
+         const InsideField& field, OutsideRadiance outside);
+
+  // One Monte Carlo estimate of the radiance (W/(length^2 sr), inside) that arrives at `hit`
+  // on the surface along the view ray, which goes on into the object. depth_sample in [0, 1) places
+  // the samples along the ray: spread it evenly over the rays of one pixel.
+  Spectrum radiance(const Ray& ray, const Hit& hit, int bounces, double depth_sample,
+                    Rng& rng) const;
+
+  // Beyond P1, U_d on the surface is the solution times this weight plus the mean of these
+  // estimates, W/(length^2 sr). Not for channels with P1.
+  double surface_weight(int channel, const Hit& hit) const {
+    const double bend = curvature(hit);
+    return layer(channel, {{hit.position, -hit.normal}, 1.0, 1.0, 1.0, bend, bend}, 0.0);
+  }
+  Spectrum transient(const Vec3& position, Rng& rng) const;
+
+ private:
+  // A straight part of a view ray within the object.
+  struct Segment {
+    Ray ray;
+    double length;
+    double cosine_begin, cosine_end;        // with the surface's normals there
+    double curvature_begin, curvature_end;  // over the surface's median, 1/length
+  };
+  Spectrum along(const Segment& segment, double depth_sample, Rng& rng) const;
+  double diffuse(int channel, const Segment& segment, double depth_sample) const;
+  Spectrum from_lights(const Segment& segment, double depth_sample, Rng& rng) const;
+  Spectrum scattered_once(const Vec3& position, const Vec3& view, Rng& rng) const;
+  Spectrum lights(const Vec3& position, const Vec3& view, Rng& rng) const;
+  Spectrum surroundings(const Vec3& position, const Vec3& view, Rng& rng) const;
+  Spectrum arriving(Ray ray, Rng& rng) const;
+  Spectrum scattering(double cosine) const;
+  double layer(int channel, const Segment& segment, double s) const;
+  double curvature(const Hit& hit) const;
+  int draw_channel(Rng& rng) const;
+
+  const Scene& scene_;
+  const RayCaster& caster_;
+  std::uint32_t object_;
+  const TranslucentMaterial& material_;
+  const InsideField& field_;
+  OutsideRadiance outside_;
+  std::vector<Medium> media_;  // per channel
+  Spectrum sigma_t_;
+  bool dark_surroundings_;  // nothing but single lights can be met outside
+  bool transient_;          // some channel goes beyond P1
+};
+
+}  // namespace knotlight
