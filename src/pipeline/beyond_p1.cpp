@@ -9,8 +9,8 @@ Equation equation_for(const Scene& scene, std::uint32_t object, int channel, Sou
   const SolverSettings& settings = scene.solver;
   const Medium own = scene.objects[object].translucent()->medium(channel);
   Equation equation{own, diffusion_coefficients(own, settings.boundary), std::nullopt};
-  if (settings.diffusion.value_or(Diffusion::p1) == Diffusion::p1 || own.g != 0.0 ||
-      source != SourceModel::photon_map || surface == nullptr)
+  if (!solves_beyond_p1(settings) || own.g != 0.0 || source != SourceModel::photon_map ||
+      surface == nullptr)
     return equation;
   equation.beyond_p1 = *settings.diffusion == Diffusion::grosjean
                            ? PointSourceField::grosjean(own.albedo())

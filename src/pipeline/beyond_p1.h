@@ -11,6 +11,10 @@
 
 namespace knotlight {
 
+inline bool solves_beyond_p1(const SolverSettings& settings) {
+  return settings.diffusion.value_or(Diffusion::p1) != Diffusion::p1;
+}
+
 // What is solved for one object in one channel.
 struct Equation {
   Medium medium;

@@ -70,8 +70,9 @@ Exitance chosen_exitance(const SolverSettings& settings) {
 
 void choose_for_picture(SolverSettings& settings) {
   const bool gathers = chosen_exitance(settings) == Exitance::gather;
-  if (!settings.diffusion && gathers && settings.boundary == Boundary::milne)
-    settings.diffusion = Diffusion::asymptotic;
+  if (!settings.diffusion && gathers)
+    settings.diffusion =
+        settings.boundary == Boundary::milne ? Diffusion::asymptotic : Diffusion::p1;
 }
 
 GlowingSurfaces glowing_surfaces(const PreparedScene& prepared, const SolvedScene& solved,
@@ -118,8 +119,9 @@ GlowingSurfaces glowing_surfaces(const PreparedScene& prepared, const SolvedScen
           U_d = GridField(geometry, 2.0 * evaluate(solution, nodes->middle, run.workers) -
                                         evaluate(solution, nodes->inner, run.workers));
         }
-        surface.inside.channels.push_back(
-            {std::move(U_d), solution.equation.beyond_p1, solution.equation.coefficients.k});
+        surface.inside.channels.push_back({std::move(U_d), solution.equation.beyond_p1,
+                                           solution.equation.coefficients.k, solution.scattering,
+                                           solution.U_ri});
       }
       stage.advance();
     }

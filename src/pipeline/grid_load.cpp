@@ -80,4 +80,18 @@ GridLoad incident_load(const GridGeometry& geometry, const IncidentHalf& half,
   return load;
 }
 
+GridField unscattered_on_grid(const std::shared_ptr<const GridGeometry>& geometry,
+                              const IncidentLight& light, const Medium& medium) {
+  GridLoad load(*geometry);
+  for (const IncidentHalf& half : light.halves)
+    for (const VolumePhoton& photon : half.photons)
+      load.add_source(photon.position, 0.5 * photon.power);
+  // Interactions per volume = 4 pi sigma_t U_ri.
+  Eigen::VectorXd values = load.values() / (4.0 * pi * medium.sigma_t());
+  const Eigen::VectorXd volumes = node_weights(geometry->finest()).volume;
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] = volumes[i] > 0.0 ? values[i] / volumes[i] : 0.0;
+  return {geometry, std::move(values)};
+}
+
 }  // namespace knotlight

@@ -25,4 +25,9 @@ std::vector<PointSource> sources_below(const std::vector<IrradianceSample>& samp
 GridLoad incident_load(const GridGeometry& geometry, const IncidentHalf& half,
                        const ChannelProblem& problem);
 
+// U_ri by the photons of both halves, W/(length^2 sr): at each node the mean over the cells around
+// it. medium: theirs.
+GridField unscattered_on_grid(const std::shared_ptr<const GridGeometry>& geometry,
+                              const IncidentLight& light, const Medium& medium);
+
 }  // namespace knotlight

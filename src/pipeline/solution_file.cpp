@@ -16,14 +16,21 @@
 
 namespace knotlight {
 
+// A field on a grid that is made anew from the shape.
+struct StoredField {
+  double cell_size = 0.0;  // length; 0: there is no field
+  Eigen::VectorXd nodes;
+};
+
 // One solved object in one channel, as the file has it.
 struct StoredChannel {
   bool solved = false;
   bool on_grid = false;     // by its method; else `inside` was looked up for pictures
   double k = 0.0;           // of the equation, length
   Eigen::VectorXd surface;  // U_d at the nodes of the surface grid
-  double cell_size = 0.0;   // of the grid inside, length; 0: there is none
-  Eigen::VectorXd inside;   // U_d at its nodes
+  StoredField inside;       // U_d
+  StoredField U_ri;
+  Medium scattering;
   ChannelReport report;
   std::vector<std::string> failures;
 };
@@ -70,9 +77,21 @@ void members(Archive& archive, Report& report) {
 }
 
 template <class Archive>
+void members(Archive& archive, Medium& medium) {
+  auto& [sigma_a, sigma_s, g, ior, emission] = medium;
+  archive(sigma_a, sigma_s, g, ior, emission);
+}
+
+template <class Archive>
+void members(Archive& archive, StoredField& field) {
+  auto& [cell_size, nodes] = field;
+  archive(cell_size, nodes);
+}
+
+template <class Archive>
 void members(Archive& archive, StoredChannel& channel) {
-  auto& [solved, on_grid, k, surface, cell_size, inside, report, failures] = channel;
-  archive(solved, on_grid, k, surface, cell_size, inside, report, failures);
+  auto& [solved, on_grid, k, surface, inside, U_ri, scattering, report, failures] = channel;
+  archive(solved, on_grid, k, surface, inside, U_ri, scattering, report, failures);
 }
 
 template <class Archive>
@@ -93,19 +112,22 @@ std::uint64_t checksum(const char* data, std::size_t size) {
   return hash.value();
 }
 
+StoredField stored(const GridField& field) {
+  return {field.geometry().h(), field.nodes()};
+}
+
 StoredChannel stored(const SolvedChannel& channel, const GlowingSurface& surface, std::size_t c) {
   StoredChannel result;
   result.solved = channel.solved;
   result.on_grid = channel.on_grid.has_value();
   result.k = channel.equation.coefficients.k;
   result.surface = surface.U_d[c];
-  const GridField* inside = channel.on_grid                    ? &*channel.on_grid
-                            : !surface.inside.channels.empty() ? &surface.inside.channels[c].U_d
-                                                               : nullptr;
-  if (inside != nullptr) {
-    result.cell_size = inside->geometry().h();
-    result.inside = inside->nodes();
-  }
+  if (channel.on_grid)
+    result.inside = stored(*channel.on_grid);
+  else if (!surface.inside.channels.empty())
+    result.inside = stored(surface.inside.channels[c].U_d);
+  if (channel.U_ri) result.U_ri = stored(*channel.U_ri);
+  result.scattering = channel.scattering;
   result.report = channel.report;
   result.failures = channel.failures;
   return result;
@@ -134,17 +156,18 @@ std::string file_bytes(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// The object's grids inside, one per cell size.
+// The grids inside an object, each made once.
 class Grids {
  public:
   Grids(const Shape& shape, const Workers& workers) : shape_(shape), workers_(workers) {}
 
-  GridField field(const StoredChannel& channel) {
-    if (!geometry_ || geometry_->h() != channel.cell_size)
-      geometry_ = std::make_shared<GridGeometry>(shape_, channel.cell_size, workers_);
-    if (!geometry_->ok() || geometry_->finest().dofs != channel.inside.size())
+  std::optional<GridField> field(StoredField& stored) {
+    if (stored.cell_size == 0.0) return std::nullopt;
+    if (!geometry_ || geometry_->h() != stored.cell_size)
+      geometry_ = std::make_shared<GridGeometry>(shape_, stored.cell_size, workers_);
+    if (!geometry_->ok() || geometry_->finest().dofs != stored.nodes.size())
       throw InputError("holds fields on another grid than this program's");
-    return {geometry_, channel.inside};
+    return GridField(geometry_, std::move(stored.nodes));
   }
 
  private:
@@ -160,8 +183,10 @@ SolvedChannel restored(StoredChannel& stored, Equation equation, SourceModel sou
   channel.equation = std::move(equation);
   if (channel.equation.coefficients.k != stored.k)
     throw InputError("was solved for another boundary condition than this program's");
-  if (stored.cell_size > 0.0) channel.on_grid = grids.field(stored);
-  if (stored.on_grid && stored.solved)
+  channel.on_grid = grids.field(stored.inside);
+  channel.U_ri = grids.field(stored.U_ri);
+  channel.scattering = stored.scattering;
+  if (stored.on_grid && channel.on_grid)
     channel.U_d = [field = *channel.on_grid](const Points& x) { return field.values(x); };
   else
     channel.U_d = [](const Points& x) -> Eigen::VectorXd {
@@ -195,9 +220,8 @@ SolvedScene restored(StoredSolution& stored, const PreparedScene& prepared, RunC
     if (stored.objects[i].size() != channels)
       throw InputError("holds another number of channels than its scene");
     const std::optional<FeltSurface> felt =
-        scene.solver.diffusion.value_or(Diffusion::p1) != Diffusion::p1
-            ? std::optional(felt_surface(object, scene.channels))
-            : std::nullopt;
+        solves_beyond_p1(scene.solver) ? std::optional(felt_surface(object, scene.channels))
+                                       : std::nullopt;
     const Eigen::Index nodes = SurfaceGrid(object.shape).nodes().cols();
     Grids grids(object.shape, run.workers);
     result.objects.emplace_back();
@@ -205,7 +229,7 @@ SolvedScene restored(StoredSolution& stored, const PreparedScene& prepared, RunC
       StoredChannel& channel = stored.objects[i][c];
       if (channel.surface.size() != nodes)
         throw InputError("holds values at other places of the surface than this program's");
-      if (channel.solved && channel.cell_size == 0.0 &&
+      if (channel.solved && channel.inside.cell_size == 0.0 &&
           chosen_exitance(scene.solver) == Exitance::gather)
         throw InputError(fmt::format(
             "has nothing from inside object '{}', expected one saved with solver.exitance gather",

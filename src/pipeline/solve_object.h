@@ -21,6 +21,8 @@ struct SolvedChannel {
   // The same at the nodes of the object's surface grid, of a solution that was read from a file.
   std::optional<Eigen::VectorXd> on_surface;
   bool solved = false;
+  Medium scattering;              // the object's own, or the similar one (solve_scene)
+  std::optional<GridField> U_ri;  // of refracting objects, if a picture is to be gathered
   Equation equation;  // beyond P1, U_d is a part of the field that pictures complete (gather.h)
   ChannelReport report;
   std::vector<std::string> failures;  // checks that failed, one sentence each

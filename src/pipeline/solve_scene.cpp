@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "pipeline/beyond_p1.h"
+#include "pipeline/grid_load.h"
 #include "pipeline/plan.h"
 #include "pipeline/solve_grid.h"
 #include "trace/overlap.h"
@@ -64,6 +65,13 @@ ObjectGrids kept_grids(std::uint32_t index, const Object& object, const Scene& s
   return *grids;
 }
 
+bool scatters_anisotropically(const PreparedScene& prepared) {
+  return std::any_of(prepared.translucent.begin(), prepared.translucent.end(),
+                     [&](std::uint32_t object) {
+                       return (prepared.scene.objects[object].translucent()->g != 0.0).any();
+                     });
+}
+
 }  // namespace
 
 SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool keep_light) {
@@ -73,6 +81,12 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool kee
 
 SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCache& factors,
                         bool keep_light) {
+  if (solves_beyond_p1(prepared.scene.solver) && scatters_anisotropically(prepared)) {
+    // What is known beyond P1 is known for isotropic scattering.
+    Scene similar = prepared.scene;
+    similar.solver.similarity = true;
+    return solve_scene(prepare_scene(std::move(similar)), run, factors, keep_light);
+  }
   const Scene& scene = prepared.scene;
   const auto channels = static_cast<std::size_t>(scene.channels);
 
@@ -87,10 +101,15 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
 
   std::vector<std::optional<ObjectGrids>> grids(prepared.translucent.size());
   const auto on_grid = [&](std::size_t i) { return plan.methods[i].method == Method::grid; };
+  // Pictures need it where light is refracted on its way in (render/gather.h).
+  const auto wants_U_ri = [&](std::size_t i) {
+    return scene.solver.diffusion && plan.source == SourceModel::photon_map &&
+           scene.objects[prepared.translucent[i]].translucent()->ior != 1.0;
+  };
   {
     Stage stage(run.stages, "grid", grids.size());
     for (std::size_t i = 0; i < grids.size(); ++i) {
-      if (on_grid(i))
+      if (on_grid(i) || wants_U_ri(i))
         grids[i] = kept_grids(prepared.translucent[i], scene.objects[prepared.translucent[i]],
                               scene, run, factors);
       stage.advance();
@@ -98,7 +117,7 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
   }
 
   std::vector<std::optional<FeltSurface>> surface(prepared.translucent.size());
-  if (scene.solver.diffusion.value_or(Diffusion::p1) != Diffusion::p1)
+  if (solves_beyond_p1(scene.solver))
     for (std::size_t i = 0; i < surface.size(); ++i)
       surface[i] = felt_surface(scene.objects[prepared.translucent[i]], scene.channels);
 
@@ -111,19 +130,22 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
     const auto solve = [&](std::size_t system, const Workers& workers) {
       const std::size_t i = system / channels;
       const std::size_t channel = system % channels;
-      const double photon_power = light[channel][i].photon_power();
+      const Medium medium =
+          scene.objects[prepared.translucent[i]].translucent()->medium(static_cast<int>(channel));
+      IncidentLight& incident = light[channel][i];
+      const double photon_power = incident.photon_power();
+      std::optional<GridField> U_ri;
+      if (wants_U_ri(i)) U_ri = unscattered_on_grid(grids[i]->fine, incident, medium);
       const Equation equation =
           equation_for(scene, prepared.translucent[i], static_cast<int>(channel), plan.source,
                        surface[i] ? &*surface[i] : nullptr);
-      if (equation.beyond_p1)
-        weigh_sources(
-            light[channel][i],
-            scene.objects[prepared.translucent[i]].translucent()->medium(static_cast<int>(channel)),
-            equation, *surface[i]);
+      if (equation.beyond_p1) weigh_sources(incident, medium, equation, *surface[i]);
       solved[system] =
           solve_channel(scene, *prepared.caster, prepared.translucent[i], static_cast<int>(channel),
-                        equation, plan.methods[i].method, grids[i] ? &*grids[i] : nullptr,
-                        light[channel][i], run.options.seed, workers, factors);
+                        equation, plan.methods[i].method, on_grid(i) ? &*grids[i] : nullptr,
+                        incident, run.options.seed, workers, factors);
+      solved[system]->scattering = medium;
+      solved[system]->U_ri = std::move(U_ri);
       solved[system]->report.photon_power = photon_power;
       if (!keep_light) light[channel][i] = {};  // freed as we go
       stage.advance();

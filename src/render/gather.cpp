@@ -24,12 +24,30 @@ constexpr double invisible = 1e-5;  // share of light that need not be followed 
 // its critical angle, and only absorption ends that.
 constexpr int most_reflections = 64;
 
+std::vector<Medium> media_of(const TranslucentMaterial& material) {
+  return {material.medium(0), material.medium(1), material.medium(2)};
+}
+
+std::vector<Medium> media_of(const InsideField& field) {
+  std::vector<Medium> media;
+  for (std::size_t c = 0; c < 3; ++c)
+    media.push_back(field.channels[std::min(c, field.channels.size() - 1)].medium);
+  return media;
+}
+
 // Distance at the share xi of the light that interacts within `length`.
 double depth(double xi, double sigma_t, double length) {
   return -std::log1p(xi * std::expm1(-sigma_t * length)) / sigma_t;
 }
 
 }  // namespace
+
+Gather::Optics::Optics(std::vector<Medium> m) : media(std::move(m)) {
+  for (int c = 0; c < 3; ++c) {
+    sigma_s[c] = media[static_cast<std::size_t>(c)].sigma_s;
+    sigma_t[c] = media[static_cast<std::size_t>(c)].sigma_t();
+  }
+}
 
 Gather::Gather(const Scene& scene, const RayCaster& caster, std::uint32_t object,
                const InsideField& field, OutsideRadiance outside)
@@ -39,15 +57,15 @@ Gather::Gather(const Scene& scene, const RayCaster& caster, std::uint32_t object
       material_(*scene.objects[object].translucent()),
       field_(field),
       outside_(std::move(outside)),
-      sigma_t_(material_.sigma_a + material_.sigma_s) {
-  for (int c = 0; c < 3; ++c) media_.push_back(material_.medium(c));
+      once_(media_of(material_)),
+      multiply_(media_of(field)) {
   const bool shining_sky =
       std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
         const auto* sky = std::get_if<EnvironmentLight>(&light);
-        return sky != nullptr && (sky->map == nullptr || material_.ior != 1.0);
+        return sky != nullptr && sky->map == nullptr;
       });
-  dark_surroundings_ = !shining_sky && scene.objects.size() == 1 &&
-                       is_convex(scene.objects[object].shape) && material_.ior == 1.0;
+  dark_surroundings_ =
+      !shining_sky && scene.objects.size() == 1 && is_convex(scene.objects[object].shape);
   transient_ = std::any_of(field.channels.begin(), field.channels.end(),
                            [](const auto& channel) { return channel.beyond_p1.has_value(); });
 }
@@ -57,23 +75,35 @@ Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double 
   double cosine = std::abs(ray.direction.dot(start.normal));
   double bend = curvature(start);
   Spectrum sum = Spectrum::Zero();
-  Spectrum weight = Spectrum::Ones();
-  Ray segment = ray;
+  Spectrum unscattered = Spectrum::Ones();  // share of light that comes so far, in either medium
+  Spectrum passed = Spectrum::Ones();
+  Ray ahead = ray;
   for (int reflections = 0; reflections < most_reflections; ++reflections) {
-    const auto hit = caster_.nearest(segment, object_);
+    const auto hit = caster_.nearest(ahead, object_);
     if (!hit) break;  // grazed an edge: nothing lies behind
-    const double cosine_end = std::abs(segment.direction.dot(hit->normal));
+    const double cosine_end = std::abs(ahead.direction.dot(hit->normal));
     const double bend_end = curvature(*hit);
-    sum += weight * along({segment, hit->t, cosine, cosine_end, bend, bend_end}, depth_sample, rng);
-    weight *= (-sigma_t_ * hit->t).exp();
-    if (weight.maxCoeff() < invisible) break;
-    const auto refracted = refract(segment.direction, hit->normal, 1.0 / material_.ior);
+    const Segment segment{ahead, hit->t, cosine, cosine_end, bend, bend_end};
+    sum += passed * diffuse(segment, depth_sample);
+    if (!field_.counts_entering_light) {
+      sum += unscattered * sampled(segment, once_, depth_sample, rng, [&](const Vec3& x) {
+               return scattered_once(x, ahead.direction, once_, rng);
+             });
+      if (transient_)
+        sum += passed * sampled(segment, multiply_, depth_sample, rng,
+                                [&](const Vec3& x) { return transient(x, rng); });
+    }
+    unscattered *= (-once_.sigma_t * hit->t).exp();
+    passed *= (-multiply_.sigma_t * hit->t).exp();
+    if (std::max(passed.maxCoeff(), unscattered.maxCoeff()) < invisible) break;
+    const auto refracted = refract(ahead.direction, hit->normal, 1.0 / material_.ior);
     if (refracted && rng.uniform() >= fresnel_reflectance(cosine_end, 1.0 / material_.ior)) {
-      sum += weight * material_.ior * material_.ior *
-             outside_({{hit->position, *refracted}, bounces, true}, rng);
+      if (unscattered.maxCoeff() >= invisible)
+        sum += unscattered * material_.ior * material_.ior *
+               outside_({{hit->position, *refracted}, bounces, true}, rng);
       break;
     }
-    segment = {hit->position, reflect(segment.direction, hit->normal)};
+    ahead = {hit->position, reflect(ahead.direction, hit->normal)};
     cosine = cosine_end;
     bend = bend_end;
     depth_sample = rng.uniform();
@@ -81,34 +111,27 @@ Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double 
   return sum;
 }
 
-Spectrum Gather::along(const Segment& segment, double depth_sample, Rng& rng) const {
+// int_0^length exp(-sigma_t s) (sigma_s U_d + E / 4 pi) ds without the transient part.
+Spectrum Gather::diffuse(const Segment& segment, double depth_sample) const {
   Spectrum sum;
-  for (int c = 0; c < scene_.channels; ++c)
-    sum[c] = diffuse(c, segment, depth_sample) - media_[static_cast<std::size_t>(c)].emission /
-                                                     (4.0 * pi * sigma_t_[c]) *
-                                                     std::expm1(-sigma_t_[c] * segment.length);
+  for (int c = 0; c < scene_.channels; ++c) {
+    const Medium& medium = multiply_.media[static_cast<std::size_t>(c)];
+    sum[c] = diffuse(c, segment, depth_sample) - medium.emission / (4.0 * pi * medium.sigma_t()) *
+                                                     std::expm1(-medium.sigma_t() * segment.length);
+  }
   for (int c = scene_.channels; c < 3; ++c) sum[c] = sum[0];
-  if (field_.counts_entering_light) return sum;
-  return sum + from_lights(segment, depth_sample, rng);
+  return sum;
 }
 
-// int_0^length sigma_s exp(-sigma_t s) (U_d - g / sigma_tr grad U_d . (-w)) ds without the
-// transient part, one stratified sample in each of `lookups` equal shares of the light.
+// One stratified sample in each of `lookups` equal shares of the light.
 double Gather::diffuse(int channel, const Segment& segment, double depth_sample) const {
-  const Medium& medium = media_[static_cast<std::size_t>(channel)];
+  const Medium& medium = multiply_.media[static_cast<std::size_t>(channel)];
   const InsideField::Channel& field = field_.channels[static_cast<std::size_t>(channel)];
   double sum = 0.0;
   for (int i = 0; i < lookups; ++i) {
     const double s = depth((i + depth_sample) / lookups, medium.sigma_t(), segment.length);
-    const Vec3 x = segment.ray.origin + s * segment.ray.direction;
-    if (field.beyond_p1) {
-      sum += field.U_d.value(x) * layer(channel, segment, s);
-    } else if (medium.g == 0.0) {
-      sum += field.U_d.value(x);
-    } else {
-      const GridField::Sample at = field.U_d.sample(x);
-      sum += at.value + medium.g / medium.sigma_tr() * at.gradient.dot(segment.ray.direction);
-    }
+    const double U_d = field.U_d.value(segment.ray.origin + s * segment.ray.direction);
+    sum += field.beyond_p1 ? U_d * layer(channel, segment, s) : U_d;
   }
   const double interacting = -std::expm1(-medium.sigma_t() * segment.length);
   return medium.albedo() * interacting * sum / lookups;
@@ -116,7 +139,7 @@ double Gather::diffuse(int channel, const Segment& segment, double depth_sample)
 
 // The layer weight of the nearer of the planes that touch the surface at both ends.
 double Gather::layer(int channel, const Segment& segment, double s) const {
-  const double sigma_t = sigma_t_[channel];
+  const double sigma_t = multiply_.sigma_t[channel];
   const double below_begin = s * segment.cosine_begin;
   const double below_end = (segment.length - s) * segment.cosine_end;
   const bool nearer = below_begin <= below_end;
@@ -136,31 +159,40 @@ int Gather::draw_channel(Rng& rng) const {
   return scene_.channels == 1 ? 0 : std::min(static_cast<int>(scene_.channels * rng.uniform()), 2);
 }
 
-// The rest of J, at one place on the segment, drawn from the channels in turn and weighted by what
-// the mean of their densities is.
-Spectrum Gather::from_lights(const Segment& segment, double depth_sample, Rng& rng) const {
-  const double s = depth(depth_sample, sigma_t_[draw_channel(rng)], segment.length);
-  const Spectrum density =
-      sigma_t_ * (-sigma_t_ * s).exp() / (1.0 - (-sigma_t_ * segment.length).exp());
-  const Spectrum weight = material_.sigma_s * (-sigma_t_ * s).exp() / density.mean();
-  const Vec3 x = segment.ray.origin + s * segment.ray.direction;
-  Spectrum light = scattered_once(x, segment.ray.direction, rng);
-  if (transient_) light += transient(x, rng);
-  return weight * light;
+// int_0^length exp(-sigma_t s) sigma_s light(x(s)) ds, at one place on the segment, drawn from the
+// channels in turn and weighted by what the mean of their densities is.
+template <class Light>
+Spectrum Gather::sampled(const Segment& segment, const Optics& optics, double depth_sample,
+                         Rng& rng, const Light& light) const {
+  const Spectrum& sigma_t = optics.sigma_t;
+  const double s = depth(depth_sample, sigma_t[draw_channel(rng)], segment.length);
+  const Spectrum passed = (-sigma_t * s).exp();
+  const Spectrum density = sigma_t * passed / (1.0 - (-sigma_t * segment.length).exp());
+  return optics.sigma_s * passed / density.mean() *
+         light(segment.ray.origin + s * segment.ray.direction);
 }
 
 // int p L_ri dw', light that is scattered into the view for the first time.
-Spectrum Gather::scattered_once(const Vec3& position, const Vec3& view, Rng& rng) const {
-  const Spectrum light = lights(position, view, rng);
-  return dark_surroundings_ ? light : Spectrum(light + surroundings(position, view, rng));
+Spectrum Gather::scattered_once(const Vec3& position, const Vec3& view, const Optics& optics,
+                                Rng& rng) const {
+  if (field_.channels.front().U_ri) {
+    Spectrum U_ri;
+    for (int c = 0; c < scene_.channels; ++c)
+      U_ri[c] = field_.channels[static_cast<std::size_t>(c)].U_ri->value(position);
+    for (int c = scene_.channels; c < 3; ++c) U_ri[c] = U_ri[0];
+    return U_ri;
+  }
+  const Spectrum light = lights(position, view, optics, rng);
+  return dark_surroundings_ ? light : Spectrum(light + surroundings(position, view, optics, rng));
 }
 
 // The transient part of U_d, by one flight in a random direction back to where the light was
 // scattered first; inside the surface it may have been reflected.
 Spectrum Gather::transient(const Vec3& position, Rng& rng) const {
+  const Spectrum& sigma_t = multiply_.sigma_t;
   const double u = rng.uniform();
   Ray flight{position, sample_sphere(u, rng.uniform())};
-  const double r = sample_free_flight(rng.uniform(), sigma_t_[draw_channel(rng)]);
+  const double r = sample_free_flight(rng.uniform(), sigma_t[draw_channel(rng)]);
   flight.t_max = r;
   for (int reflections = 0; reflections < most_reflections; ++reflections) {
     const auto hit = caster_.nearest(flight, object_);
@@ -169,68 +201,54 @@ Spectrum Gather::transient(const Vec3& position, Rng& rng) const {
     if (rng.uniform() >= fresnel_reflectance(cosine, 1.0 / material_.ior)) return Spectrum::Zero();
     flight = {hit->position, reflect(flight.direction, hit->normal), flight.t_max - hit->t};
   }
-  const Spectrum passed = (-sigma_t_ * r).exp();
-  Spectrum weight = passed / (sigma_t_ * passed).mean();
+  const Spectrum passed = (-sigma_t * r).exp();
+  Spectrum weight = passed / (sigma_t * passed).mean();
   for (int c = 0; c < 3; ++c) {
     const auto& field =
         field_.channels[static_cast<std::size_t>(std::min(c, scene_.channels - 1))].beyond_p1;
-    weight[c] *= field ? field->epsilon(sigma_t_[c] * r) : 0.0;
+    weight[c] *= field ? field->epsilon(sigma_t[c] * r) : 0.0;
   }
   const Vec3 first = flight.origin + flight.t_max * flight.direction;
-  return weight * (material_.sigma_s * scattered_once(first, flight.direction, rng) +
+  return weight * (multiply_.sigma_s * scattered_once(first, flight.direction, multiply_, rng) +
                    material_.emission / (4.0 * pi));
 }
 
-// What one unit of irradiance from a direction sends to the eye, 1/sr; cosine between the
-// directions of the light and of the view ray as seen from the place. The phase function, and the
-// flux Q_ri / sigma_tr in F_d.
-Spectrum Gather::scattering(double cosine) const {
-  Spectrum result;
-  for (int c = 0; c < 3; ++c) {
-    const Medium& medium = media_[static_cast<std::size_t>(c)];
-    const double flux = medium.g == 0.0 ? 0.0
-                                        : 3.0 * medium.g * medium.g * medium.sigma_s /
-                                              (4.0 * pi * medium.sigma_tr()) * cosine;
-    result[c] = henyey_greenstein(cosine, medium.g) + flux;
-  }
-  return result;
-}
-
-Spectrum Gather::lights(const Vec3& position, const Vec3& view, Rng& rng) const {
+Spectrum Gather::lights(const Vec3& position, const Vec3& view, const Optics& optics,
+                        Rng& rng) const {
   Spectrum sum = Spectrum::Zero();
   for (const Light& light : scene_.lights) {
-    if (const auto sample = sample_light(light, position, rng))
-      sum += scattering(sample->to_light.dot(view)) * sample->irradiance *
-             transmittance(scene_, caster_, position, sample->to_light, sample->distance);
+    const auto sample = sample_light(light, position, rng);
+    if (!sample) continue;
+    // Through the object itself in this medium, then through whatever lies outside.
+    const auto way_out = caster_.nearest({position, sample->to_light, sample->distance}, object_);
+    const double inside = way_out ? way_out->t : sample->distance;
+    Spectrum passed = (-optics.sigma_t * inside).exp();
+    if (way_out)
+      passed *= transmittance(scene_, caster_, way_out->position, sample->to_light,
+                              sample->distance - inside);
+    const double cosine = sample->to_light.dot(view);
+    for (int c = 0; c < 3; ++c)
+      sum[c] += henyey_greenstein(cosine, optics.media[static_cast<std::size_t>(c)].g) *
+                sample->irradiance[c] * passed[c];
   }
   return sum;
 }
 
-// Everything else that shines into the object, met by going where the phase function leads.
-Spectrum Gather::surroundings(const Vec3& position, const Vec3& view, Rng& rng) const {
+// Everything else that shines into the object, met by going where the phase function of the first
+// channel leads.
+Spectrum Gather::surroundings(const Vec3& position, const Vec3& view, const Optics& optics,
+                              Rng& rng) const {
   const double u = rng.uniform();
-  const Vec3 w = sample_henyey_greenstein(view, media_[0].g, u, rng.uniform());
-  const double cosine = w.dot(view);
-  return scattering(cosine) / henyey_greenstein(cosine, media_[0].g) * arriving({position, w}, rng);
-}
-
-// Unscattered radiance that arrives at ray.origin inside the object from where the ray leads.
-Spectrum Gather::arriving(Ray ray, Rng& rng) const {
-  Spectrum weight = Spectrum::Ones();
-  for (int reflections = 0; reflections < most_reflections; ++reflections) {
-    const auto hit = caster_.nearest(ray, object_);
-    if (!hit) break;
-    weight *= (-sigma_t_ * hit->t).exp();
-    if (weight.maxCoeff() < invisible) break;
-    const auto refracted = refract(ray.direction, hit->normal, 1.0 / material_.ior);
-    const double reflectance =
-        fresnel_reflectance(std::abs(ray.direction.dot(hit->normal)), 1.0 / material_.ior);
-    if (refracted && rng.uniform() >= reflectance)
-      return weight * material_.ior * material_.ior *
-             outside_({{hit->position, *refracted}, 0, false}, rng);
-    ray = {hit->position, reflect(ray.direction, hit->normal)};
-  }
-  return Spectrum::Zero();
+  const Ray ray{position, sample_henyey_greenstein(view, optics.media[0].g, u, rng.uniform())};
+  const auto hit = caster_.nearest(ray, object_);
+  if (!hit) return Spectrum::Zero();
+  Spectrum weight = (-optics.sigma_t * hit->t).exp();
+  if (weight.maxCoeff() < invisible) return Spectrum::Zero();
+  const double cosine = ray.direction.dot(view);
+  for (int c = 1; c < 3; ++c)
+    weight[c] *= henyey_greenstein(cosine, optics.media[static_cast<std::size_t>(c)].g) /
+                 henyey_greenstein(cosine, optics.media[0].g);
+  return weight * outside_({{hit->position, ray.direction}, 0, false}, rng);
 }
 
 }  // namespace knotlight

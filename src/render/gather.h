@@ -3,17 +3,18 @@
 //
 //   L(x, -w) = int_0^S exp(-sigma_t s) J(x + s w) ds + exp(-sigma_t S) L_behind
 //
-//   J = sigma_s (U_d + (3 g / 4 pi) F_d . (-w))         scattered before: the diffusion solution,
-//     + sigma_s int p L_ri dw'                          scattered once: straight from the lights,
-//     + E / (4 pi)                                      emitted
-//
-// F_d = -(4 pi / 3 sigma_tr) grad U_d + Q_ri / sigma_tr, Q_ri = g sigma_s F_ri [I78].
+//   J = sigma_s U_d                  scattered before: the diffusion solution, taken as isotropic
+//     + sigma_s int p L_ri dw'       scattered once: straight from the lights
+//     + E / (4 pi)                   emitted
 //
 // Beyond P1 (core/asymptotic.h) U_d is the sum of the solution, which is then the asymptotic part,
 // times the layer weight of the depth, and of the transient part: light on the way from its first
 // scattering to its second,
 //
 //   int epsilon(sigma_t r) exp(-sigma_t r) (sigma_s U_ri + E / 4 pi)(x + r w') dr dw' / (4 pi).
+//
+// With g != 0 light that is scattered more than once is seen in the similar medium, ((1 - g)
+// sigma_s, 0), and what that gets wrong below a lit surface is put right as for a half-space.
 #pragma once
 
 #include <functional>
@@ -35,6 +36,9 @@ struct InsideField {
     GridField U_d;  // W/(length^2 sr)
     std::optional<PointSourceField> beyond_p1;
     double k = 0.0;  // extrapolation length that U_d was solved with
+    Medium medium;   // in which light that is scattered more than once is seen
+    // Of a refracting object, where no straight line leads to the lights: by the photons.
+    std::optional<GridField> U_ri;
   };
   std::vector<Channel> channels;
   std::optional<FeltSurface> surface;  // where some channel goes beyond P1
@@ -82,14 +86,22 @@ class Gather {
     double cosine_begin, cosine_end;        // with the surface's normals there
     double curvature_begin, curvature_end;  // over the surface's median, 1/length
   };
-  Spectrum along(const Segment& segment, double depth_sample, Rng& rng) const;
+  // A medium in all channels.
+  struct Optics {
+    std::vector<Medium> media;  // three
+    Spectrum sigma_s, sigma_t;
+    explicit Optics(std::vector<Medium> m);
+  };
+  Spectrum diffuse(const Segment& segment, double depth_sample) const;
   double diffuse(int channel, const Segment& segment, double depth_sample) const;
-  Spectrum from_lights(const Segment& segment, double depth_sample, Rng& rng) const;
-  Spectrum scattered_once(const Vec3& position, const Vec3& view, Rng& rng) const;
-  Spectrum lights(const Vec3& position, const Vec3& view, Rng& rng) const;
-  Spectrum surroundings(const Vec3& position, const Vec3& view, Rng& rng) const;
-  Spectrum arriving(Ray ray, Rng& rng) const;
-  Spectrum scattering(double cosine) const;
+  template <class Light>
+  Spectrum sampled(const Segment& segment, const Optics& optics, double depth_sample, Rng& rng,
+                   const Light& light) const;
+  Spectrum scattered_once(const Vec3& position, const Vec3& view, const Optics& optics,
+                          Rng& rng) const;
+  Spectrum lights(const Vec3& position, const Vec3& view, const Optics& optics, Rng& rng) const;
+  Spectrum surroundings(const Vec3& position, const Vec3& view, const Optics& optics,
+                        Rng& rng) const;
   double layer(int channel, const Segment& segment, double s) const;
   double curvature(const Hit& hit) const;
   int draw_channel(Rng& rng) const;
@@ -100,8 +112,8 @@ class Gather {
   const TranslucentMaterial& material_;
   const InsideField& field_;
   OutsideRadiance outside_;
-  std::vector<Medium> media_;  // per channel
-  Spectrum sigma_t_;
+  Optics once_;             // the object's medium
+  Optics multiply_;         // that of light scattered more than once
   bool dark_surroundings_;  // nothing but single lights can be met outside
   bool transient_;          // some channel goes beyond P1
 };

@@ -5,7 +5,10 @@
 #include <numbers>
 
 #include "core/fresnel.h"
+#include "core/microfacet.h"
+#include "core/sampling.h"
 #include "trace/direct_light.h"
+#include "trace/surroundings.h"
 
 namespace knotlight {
 namespace {
@@ -59,12 +62,26 @@ Spectrum Shading::radiance(const Ray& ray, const Look& look, Rng& rng) const {
   if (!hit)
     return look.seen ? environment_radiance(scene_, ray.direction) : constant_environment(scene_);
   const Object& object = scene_.objects[hit->object];
-  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&object.material)) {
-    const Vec3 n = hit->normal.dot(ray.direction) < 0.0 ? hit->normal : Vec3(-hit->normal);
-    return diffuse->reflectance / std::numbers::pi *
-           sample_irradiance(scene_, caster_, hit->position, n, rng);
+  if (std::holds_alternative<DiffuseMaterial>(object.material)) {
+    const Spectrum light = reflected_radiance(scene_, caster_, *hit, ray.direction, rng);
+    return look.seen ? Spectrum(light + glow_reflected(*hit, ray.direction, rng)) : light;
   }
   return translucent_radiance(ray, *hit, *object.translucent(), look, rng);
+}
+
+// What a diffuse surface reflects of the light that leaves translucent objects: one direction.
+Spectrum Shading::glow_reflected(const Hit& hit, const Vec3& direction, Rng& rng) const {
+  const Vec3 n = hit.normal.dot(direction) < 0.0 ? hit.normal : Vec3(-hit.normal);
+  const double u = rng.uniform();
+  const Ray ray{hit.position, Frame(n).to_world(sample_cosine_hemisphere(u, rng.uniform()))};
+  const auto met = caster_.nearest(ray);
+  if (!met) return Spectrum::Zero();
+  const TranslucentMaterial* material = scene_.objects[met->object].translucent();
+  if (material == nullptr) return Spectrum::Zero();
+  const Vec3 normal = shading_normal(*met);
+  const double cosine = std::clamp(-normal.dot(ray.direction), least_cosine, 1.0);
+  return reflectance_at(scene_.objects[hit.object], hit) *
+         surface_radiance(*met, normal, cosine, *material, rng);
 }
 
 // Light that leaves the object, and the mirror image of the surroundings in its surface.
@@ -74,23 +91,31 @@ Spectrum Shading::translucent_radiance(const Ray& ray, const Hit& hit,
   const Vec3 n = shading_normal(hit);
   const double cosine = std::clamp(-n.dot(ray.direction), least_cosine, 1.0);
   if (!look.seen) return surface_radiance(hit, n, cosine, material, rng);
-  const double reflectance = fresnel_reflectance(cosine, material.ior);
-  Spectrum light;
-  if (gathers_[hit.object]) {
-    auto inwards = refract(ray.direction, n, material.ior);
+  // A rough surface sends the view ray one way or the other; a smooth one both.
+  double reflectance = fresnel_reflectance(cosine, material.ior);
+  Vec3 mirrored = reflect(ray.direction, n);
+  auto inwards = refract(ray.direction, n, material.ior);
+  if (material.alpha() > 0.0) {
+    const SurfaceEvent event =
+        cross_rough_surface(ray.direction, n, material.ior, material.alpha(), rng);
+    reflectance = event.transmitted ? 0.0 : 1.0;
+    (event.transmitted ? *inwards : mirrored) = event.direction;
+  }
+  Spectrum light = Spectrum::Zero();
+  if (!gathers_[hit.object]) {
+    light = surface_radiance(hit, n, cosine, material, rng);
+    if (material.ior == 1.0) light += seen_through(ray, hit, material, look, rng);
+  } else if (reflectance < 1.0) {
     // Smoothed normals may refract through the facet's back.
     if (!inwards || inwards->dot(hit.normal) >= 0.0)
       inwards = refract(ray.direction, hit.normal, material.ior);
     light = (1.0 - reflectance) / (material.ior * material.ior) *
             gathers_[hit.object]->radiance({hit.position, *inwards}, hit,
                                            std::max(look.bounces - 1, 0), look.depth_sample, rng);
-  } else {
-    light = surface_radiance(hit, n, cosine, material, rng);
-    if (material.ior == 1.0) light += seen_through(ray, hit, material, look, rng);
   }
   if (reflectance == 0.0 || look.bounces == 0) return light;
-  const Vec3 mirrored = reflect(ray.direction, n);
-  if (mirrored.dot(hit.normal) <= 0.0) return light;  // into the facet: smoothing's artefact
+  // Smoothed normals may mirror into the facet.
+  if (mirrored.dot(hit.normal) <= 0.0) mirrored = reflect(ray.direction, hit.normal);
   return light + reflectance * radiance({hit.position, mirrored},
                                         {look.bounces - 1, true, rng.uniform()}, rng);
 }

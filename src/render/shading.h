@@ -58,6 +58,7 @@ class Shading {
                                 const Look& look, Rng& rng) const;
   Spectrum surface_radiance(const Hit& hit, const Vec3& normal, double cosine,
                             const TranslucentMaterial& material, Rng& rng) const;
+  Spectrum glow_reflected(const Hit& hit, const Vec3& direction, Rng& rng) const;
   Spectrum seen_through(const Ray& ray, const Hit& hit, const TranslucentMaterial& material,
                         const Look& look, Rng& rng) const;
   Vec3 shading_normal(const Hit& hit) const;
