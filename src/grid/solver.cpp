@@ -82,6 +82,11 @@ double GridField::value(const Vec3& x) const {
   return geometry_ ? at(geometry_->locate(x)) : std::numeric_limits<double>::quiet_NaN();
 }
 
+double GridField::value_or_nothing(const Vec3& x) const {
+  const Place place = geometry_->locate(x);
+  return place.piece < 0 ? 0.0 : at(place);
+}
+
 double GridField::value(const Vec3& x, const Vec3& normal) const {
   return geometry_ ? at(geometry_->locate(x, normal)) : std::numeric_limits<double>::quiet_NaN();
 }

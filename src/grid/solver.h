@@ -63,6 +63,8 @@ class GridField {
   // u inside or on the surface, trilinear in each cell and continuous; NaN far from the object. A
   // surface point should be given with its outward normal: see GridGeometry::locate.
   double value(const Vec3& x) const;
+  // The same, 0 far from the object: nothing is there.
+  double value_or_nothing(const Vec3& x) const;
   double value(const Vec3& x, const Vec3& normal) const;
   Eigen::VectorXd values(const Points& x) const;
   Eigen::VectorXd values(const Points& x, const Points& normals) const;

@@ -38,8 +38,9 @@ struct View {
   const GlowingSurfaces& surfaces;
   const Shading& shading;
   std::uint64_t seed;
-  std::vector<int> solved_index;      // per object: in SolvedScene::objects; -1 for diffuse ones
-  std::vector<Spectrum> surface_rms;  // per object: of U_d over the nodes of its surface
+  std::optional<PreparedScene> similar;  // the scene that was solved, if it is another
+  std::vector<int> solved_index;         // per object: in SolvedScene::objects; -1 for diffuse ones
+  std::vector<Spectrum> surface_rms;     // per object: of U_d over the nodes of its surface
 };
 
 View make_view(const PreparedScene& prepared, const SolvedScene& solved,
@@ -50,6 +51,7 @@ View make_view(const PreparedScene& prepared, const SolvedScene& solved,
             surfaces,
             shading,
             seed,
+            similar_scene(prepared),
             std::vector<int>(objects, -1),
             std::vector<Spectrum>(objects, Spectrum::Zero())};
   for (std::size_t i = 0; i < prepared.translucent.size(); ++i) {
@@ -98,6 +100,8 @@ class VisiblePlace {
     return {view_.seed, Stream::layers,
             pixel_ * static_cast<std::uint64_t>(Use::uses) + static_cast<std::uint64_t>(use)};
   }
+  // In this scene or the one of similar media, by the same random numbers.
+  UnscatteredLight unscattered(const Scene& scene) const;
   const UnscatteredLight& light();
   Spectrum entered() const;
 
@@ -109,11 +113,13 @@ class VisiblePlace {
   std::optional<UnscatteredLight> light_;
 };
 
+UnscatteredLight VisiblePlace::unscattered(const Scene& scene) const {
+  Rng own = rng(Use::light);
+  return unscattered_light(scene, *view_.prepared.caster, hit_, light_samples, own);
+}
+
 const UnscatteredLight& VisiblePlace::light() {
-  if (!light_) {
-    Rng own = rng(Use::light);
-    light_ = unscattered_light(scene_, *view_.prepared.caster, hit_, light_samples, own);
-  }
+  if (!light_) light_ = unscattered(scene_);
   return *light_;
 }
 
@@ -143,7 +149,9 @@ Spectrum VisiblePlace::U_d() {
     for (int i = 0; i < light_samples; ++i) sum += gather->transient(hit_.position, own);
     U += sum / light_samples;
   }
-  return surface.counts_entering_light ? Spectrum(U - light().U_ri) : U;
+  if (surface.counts_entering_light) return U - light().U_ri;
+  // All light is the same in both media, what of it is not yet scattered is not.
+  return view_.similar ? Spectrum(U + unscattered(view_.similar->scene).U_ri - light().U_ri) : U;
 }
 
 // -f of the P1 equation, W/(length^4 sr).
@@ -255,7 +263,7 @@ std::vector<std::string> components(const LayerKind& kind) {
 }  // namespace
 
 std::vector<std::string> chosen_layers(const std::string& list) {
-  const std::vector<std::string> known = all_names();
+  std::vector<std::string> known = all_names();
   std::vector<std::string> wanted;
   std::istringstream words(list + ",");  // a comma at the end has an empty name behind it
   for (std::string word; std::getline(words, word, ',');) {

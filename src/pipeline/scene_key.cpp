@@ -3,99 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
-#include "core/hash.h"
+#include "scene/scene_hash.h"
 
 namespace knotlight {
 namespace {
 
-// Structures are taken apart by structured bindings: one that gets another member does not compile
-// before it is decided here whether solutions depend on it.
-class SceneHash {
- public:
-  template <typename... T>
-  static std::uint64_t of(const T&... items) {
-    SceneHash hash;
-    (hash.add(items), ...);
-    return hash.hash_.value();
-  }
-
- private:
-  template <typename T>
-  requires std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, std::string>
-  void add(const T& x) { hash_(x); }
-  void add(const Vec3& v) {
-    for (const double x : v) add(x);
-  }
-  void add(const Spectrum& s) {
-    for (const double x : s) add(x);
-  }
-  template <typename T>
-  void add(const std::optional<T>& x) {
-    add(x.has_value());
-    if (x) add(*x);
-  }
-  template <typename... T>
-  void add(const std::variant<T...>& x) {
-    add(x.index());
-    std::visit([this](const auto& one) { add(one); }, x);
-  }
-
-  void add(const PointLight& light) {
-    const auto& [position, intensity] = light;
-    add(position);
-    add(intensity);
-  }
-  void add(const DirectionalLight& light) {
-    const auto& [direction, irradiance] = light;
-    add(direction);
-    add(irradiance);
-  }
-  void add(const AreaLight& light) {
-    const auto& [center, u, v, radiance] = light;
-    add(center);
-    add(u);
-    add(v);
-    add(radiance);
-  }
-  void add(const EnvironmentLight& light) {
-    const auto& [radiance, map] = light;
-    add(radiance);
-    add(map != nullptr);
-    if (map == nullptr) return;
-    add(map->width());
-    for (const Spectrum& pixel : map->pixels()) add(pixel);
-  }
-
-  void add(const Sphere& sphere) {
-    const auto& [center, radius] = sphere;
-    add(center);
-    add(radius);
-  }
-  void add(const TriangleMesh& mesh) {
-    const auto& [vertices, triangles, colours] = mesh;
-    add(vertices.size());
-    for (const Vec3& vertex : vertices) add(vertex);
-    for (const Triangle& triangle : triangles)
-      for (const std::uint32_t corner : triangle) add(corner);
-    for (const Spectrum& colour : colours) add(colour);
-  }
-
-  void add(const TranslucentMaterial& material) {
-    const auto& [sigma_a, sigma_s, g, ior, emission, roughness] = material;
-    for (const Spectrum& colour : {sigma_a, sigma_s, g, emission}) add(colour);
-    add(ior);
-    add(roughness);
-  }
-  void add(const DiffuseMaterial& material) {
-    const auto& [reflectance] = material;
-    add(reflectance);
-  }
-
-  Hash hash_;
-};
-
+// Taken apart by structured bindings, as in scene/scene_hash.cpp: settings that get another member
+// do not compile before it is decided here whether solutions depend on it.
 std::uint64_t hash_of(const BkmThesisSettings& settings) {
   const auto& [knot_layout, interior_knots, radial_function, radial_exponent, radial_order,
                shape_parameter, leave_one_out, basis_order, dense_solver, svd_cut,

@@ -207,8 +207,10 @@ SolvedScene restored(StoredSolution& stored, const PreparedScene& prepared, RunC
   if (!difference.empty())
     throw InputError(fmt::format(
         "is of another scene: {} differs, expected the same but for the camera", difference));
+  const std::optional<PreparedScene> similar = similar_scene(prepared);
+  const PreparedScene& as_solved = similar ? *similar : prepared;
   SolvedScene result;
-  result.plan = make_plan(prepared);
+  result.plan = make_plan(as_solved);
   result.report = std::move(stored.report);
   const auto channels = static_cast<std::size_t>(scene.channels);
   if (stored.objects.size() != prepared.translucent.size() ||
@@ -236,7 +238,7 @@ SolvedScene restored(StoredSolution& stored, const PreparedScene& prepared, RunC
             object.name));
       result.objects.back().push_back(
           restored(channel,
-                   equation_for(scene, index, static_cast<int>(c), result.plan.source,
+                   equation_for(as_solved.scene, index, static_cast<int>(c), result.plan.source,
                                 felt ? &*felt : nullptr),
                    result.plan.source, grids));
     }

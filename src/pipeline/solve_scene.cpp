@@ -74,6 +74,14 @@ bool scatters_anisotropically(const PreparedScene& prepared) {
 
 }  // namespace
 
+std::optional<PreparedScene> similar_scene(const PreparedScene& prepared) {
+  if (!solves_beyond_p1(prepared.scene.solver) || !scatters_anisotropically(prepared))
+    return std::nullopt;
+  Scene similar = prepared.scene;
+  similar.solver.similarity = true;
+  return prepare_scene(std::move(similar));
+}
+
 SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool keep_light) {
   FactorCache factors;
   return solve_scene(prepared, run, factors, keep_light);
@@ -81,12 +89,8 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool kee
 
 SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCache& factors,
                         bool keep_light) {
-  if (solves_beyond_p1(prepared.scene.solver) && scatters_anisotropically(prepared)) {
-    // What is known beyond P1 is known for isotropic scattering.
-    Scene similar = prepared.scene;
-    similar.solver.similarity = true;
-    return solve_scene(prepare_scene(std::move(similar)), run, factors, keep_light);
-  }
+  if (const auto similar = similar_scene(prepared))
+    return solve_scene(*similar, run, factors, keep_light);
   const Scene& scene = prepared.scene;
   const auto channels = static_cast<std::size_t>(scene.channels);
 

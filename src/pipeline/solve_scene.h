@@ -1,6 +1,7 @@
 // All translucent objects of a scene, solved in every channel.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "pipeline/plan.h"
@@ -19,6 +20,10 @@ struct SolvedScene {
   std::vector<std::vector<IncidentLight>> light;
   Report report;
 };
+
+// The scene of similar media that is solved in place of this one, if it is: what is known beyond P1
+// is known for isotropic scattering.
+std::optional<PreparedScene> similar_scene(const PreparedScene& prepared);
 
 SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, bool keep_light = false);
 // The same with systems factored by an earlier solve of the same objects and materials under other

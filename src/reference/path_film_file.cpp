@@ -9,83 +9,12 @@
 #include "core/file_io.h"
 #include "core/hash.h"
 #include "reference/path_film.h"
+#include "scene/scene_hash.h"
 
 namespace knotlight {
 namespace {
 
 constexpr char magic[] = "knotlight reference film 1\n";
-
-// What a scene is made of, one number for all of it.
-class SceneHash {
- public:
-  template <typename T>
-  requires std::is_arithmetic_v<T>
-  void operator()(T x) { hash_(x); }
-  void operator()(const Vec3& v) {
-    for (const double x : v) (*this)(x);
-  }
-  void operator()(const Spectrum& s) {
-    for (const double x : s) (*this)(x);
-  }
-  void operator()(const TriangleMesh& mesh) {
-    (*this)(mesh.vertices.size());
-    for (const Vec3& v : mesh.vertices) (*this)(v);
-    for (const Triangle& t : mesh.triangles)
-      for (const std::uint32_t i : t) (*this)(i);
-    for (const Spectrum& colour : mesh.colours) (*this)(colour);
-  }
-  void operator()(const Sphere& sphere) {
-    (*this)(sphere.center);
-    (*this)(sphere.radius);
-  }
-  void operator()(const TranslucentMaterial& m) {
-    (*this)(m.sigma_a);
-    (*this)(m.sigma_s);
-    (*this)(m.g);
-    (*this)(m.ior);
-    (*this)(m.emission);
-    (*this)(m.roughness);
-  }
-  void operator()(const DiffuseMaterial& m) { (*this)(m.reflectance); }
-  void operator()(const PointLight& l) {
-    (*this)(l.position);
-    (*this)(l.intensity);
-  }
-  void operator()(const DirectionalLight& l) {
-    (*this)(l.direction);
-    (*this)(l.irradiance);
-  }
-  void operator()(const AreaLight& l) {
-    (*this)(l.center);
-    (*this)(l.u);
-    (*this)(l.v);
-    (*this)(l.radiance);
-  }
-  void operator()(const EnvironmentLight& l) {
-    (*this)(l.radiance);
-    if (l.map == nullptr) return;
-    (*this)(l.map->width());
-    for (const Spectrum& pixel : l.map->pixels()) (*this)(pixel);
-  }
-  void operator()(const Camera& c) {
-    (*this)(static_cast<int>(c.type));
-    (*this)(c.from);
-    (*this)(c.to);
-    (*this)(c.up);
-    (*this)(c.type == Camera::Type::perspective ? c.fov : c.width);
-    (*this)(c.width_px);
-    (*this)(c.height_px);
-  }
-  template <typename... T>
-  void operator()(const std::variant<T...>& v) {
-    (*this)(v.index());
-    std::visit([this](const auto& x) { (*this)(x); }, v);
-  }
-  std::uint64_t value() const { return hash_.value(); }
-
- private:
-  Hash hash_;
-};
 
 // The part of fixed size, after the magic words and before the two planes of sums.
 struct Header {
@@ -109,13 +38,18 @@ void append(std::string& bytes, const T* items, std::size_t count) {
 
 std::uint64_t samples_key(const Scene& scene, std::uint64_t seed) {
   SceneHash hash;
-  hash(seed);
-  hash(scene.channels);
-  hash(scene.camera);
-  for (const Light& light : scene.lights) hash(light);
+  const Camera& camera = scene.camera;
+  hash.add(seed);
+  hash.add(scene.channels);
+  hash.add(camera.type);
+  for (const Vec3& v : {camera.from, camera.to, camera.up}) hash.add(v);
+  hash.add(camera.type == Camera::Type::perspective ? camera.fov : camera.width);
+  hash.add(camera.width_px);
+  hash.add(camera.height_px);
+  for (const Light& light : scene.lights) hash.add(light);
   for (const Object& object : scene.objects) {
-    hash(object.shape);
-    hash(object.material);
+    hash.add(object.shape);
+    hash.add(object.material);
   }
   return hash.value();
 }

@@ -66,6 +66,15 @@ Gather::Gather(const Scene& scene, const RayCaster& caster, std::uint32_t object
       });
   dark_surroundings_ =
       !shining_sky && scene.objects.size() == 1 && is_convex(scene.objects[object].shape);
+  const auto scatters_unlike = [&](int c) {
+    return once_.media[static_cast<std::size_t>(c)].g !=
+           multiply_.media[static_cast<std::size_t>(c)].g;
+  };
+  // Under a refracting surface the half-spaces would have to have one too.
+  if (material_.ior == 1.0 && (scatters_unlike(0) || scatters_unlike(1) || scatters_unlike(2)))
+    for (std::size_t c = 0; c < static_cast<std::size_t>(scene.channels); ++c)
+      reflections_.push_back({{once_.media[c].albedo(), once_.media[c].g},
+                              {multiply_.media[c].albedo(), multiply_.media[c].g}});
   transient_ = std::any_of(field.channels.begin(), field.channels.end(),
                            [](const auto& channel) { return channel.beyond_p1.has_value(); });
 }
@@ -78,6 +87,8 @@ Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double 
   Spectrum unscattered = Spectrum::Ones();  // share of light that comes so far, in either medium
   Spectrum passed = Spectrum::Ones();
   Ray ahead = ray;
+  if (!reflections_.empty() && !field_.counts_entering_light)
+    sum += reflected_beyond_similar(ray, start, rng);
   for (int reflections = 0; reflections < most_reflections; ++reflections) {
     const auto hit = caster_.nearest(ahead, object_);
     if (!hit) break;  // grazed an edge: nothing lies behind
@@ -130,7 +141,8 @@ double Gather::diffuse(int channel, const Segment& segment, double depth_sample)
   double sum = 0.0;
   for (int i = 0; i < lookups; ++i) {
     const double s = depth((i + depth_sample) / lookups, medium.sigma_t(), segment.length);
-    const double U_d = field.U_d.value(segment.ray.origin + s * segment.ray.direction);
+    // A ray that has slipped through an edge of the mesh finds nothing outside.
+    const double U_d = field.U_d.value_or_nothing(segment.ray.origin + s * segment.ray.direction);
     sum += field.beyond_p1 ? U_d * layer(channel, segment, s) : U_d;
   }
   const double interacting = -std::expm1(-medium.sigma_t() * segment.length);
@@ -178,12 +190,20 @@ Spectrum Gather::scattered_once(const Vec3& position, const Vec3& view, const Op
   if (field_.channels.front().U_ri) {
     Spectrum U_ri;
     for (int c = 0; c < scene_.channels; ++c)
-      U_ri[c] = field_.channels[static_cast<std::size_t>(c)].U_ri->value(position);
+      U_ri[c] = field_.channels[static_cast<std::size_t>(c)].U_ri->value_or_nothing(position);
     for (int c = scene_.channels; c < 3; ++c) U_ri[c] = U_ri[0];
     return U_ri;
   }
   const Spectrum light = lights(position, view, optics, rng);
   return dark_surroundings_ ? light : Spectrum(light + surroundings(position, view, optics, rng));
+}
+
+// Where a ray from inside leaves the object. Nothing from a place so near the surface that the ray
+// is outside already.
+std::optional<Hit> Gather::way_out(const Ray& ray) const {
+  auto hit = caster_.nearest(ray, object_);
+  if (hit && ray.direction.dot(hit->normal) <= 0.0) hit.reset();
+  return hit;
 }
 
 // The transient part of U_d, by one flight in a random direction back to where the light was
@@ -193,13 +213,15 @@ Spectrum Gather::transient(const Vec3& position, Rng& rng) const {
   const double u = rng.uniform();
   Ray flight{position, sample_sphere(u, rng.uniform())};
   const double r = sample_free_flight(rng.uniform(), sigma_t[draw_channel(rng)]);
-  flight.t_max = r;
+  double left = r;
   for (int reflections = 0; reflections < most_reflections; ++reflections) {
-    const auto hit = caster_.nearest(flight, object_);
-    if (!hit) break;
-    const double cosine = std::abs(flight.direction.dot(hit->normal));
+    const auto hit = way_out(flight);
+    if (!hit) return Spectrum::Zero();
+    if (hit->t >= left) break;
+    const double cosine = flight.direction.dot(hit->normal);
     if (rng.uniform() >= fresnel_reflectance(cosine, 1.0 / material_.ior)) return Spectrum::Zero();
-    flight = {hit->position, reflect(flight.direction, hit->normal), flight.t_max - hit->t};
+    flight = {hit->position, reflect(flight.direction, hit->normal)};
+    left -= hit->t;
   }
   const Spectrum passed = (-sigma_t * r).exp();
   Spectrum weight = passed / (sigma_t * passed).mean();
@@ -208,9 +230,46 @@ Spectrum Gather::transient(const Vec3& position, Rng& rng) const {
         field_.channels[static_cast<std::size_t>(std::min(c, scene_.channels - 1))].beyond_p1;
     weight[c] *= field ? field->epsilon(sigma_t[c] * r) : 0.0;
   }
-  const Vec3 first = flight.origin + flight.t_max * flight.direction;
+  const Vec3 first = flight.origin + left * flight.direction;
   return weight * (multiply_.sigma_s * scattered_once(first, flight.direction, multiply_, rng) +
                    material_.emission / (4.0 * pi));
+}
+
+// What a half-space lit as the surface is at `hit` reflects by light scattered at least twice, over
+// what one of the similar medium does: the first few scatterings of a forward peak.
+Spectrum Gather::reflected_beyond_similar(const Ray& ray, const Hit& hit, Rng& rng) const {
+  const Vec3& n = hit.normal;
+  Spectrum sum = Spectrum::Zero();
+  for (const Light& light : scene_.lights) {
+    const auto sample = sample_light(light, hit.position, rng);
+    const double cosine = sample ? sample->to_light.dot(n) : 0.0;
+    if (cosine <= 0.0) continue;
+    sum += more_than_similar(cosine, ray.direction, sample->to_light, n) * sample->irradiance *
+           cosine *
+           transmittance(scene_, caster_, hit.position, sample->to_light, sample->distance);
+  }
+  if (dark_surroundings_) return sum;
+  const double u = rng.uniform();
+  const Vec3 w = Frame(n).to_world(sample_cosine_hemisphere(u, rng.uniform()));
+  return sum + pi * more_than_similar(w.dot(n), ray.direction, w, n) *
+                   outside_({{hit.position, w}, 0, false}, rng);
+}
+
+// Difference of both half-spaces' reflection, 1/sr.
+Spectrum Gather::more_than_similar(double cosine, const Vec3& view, const Vec3& to_light,
+                                   const Vec3& normal) const {
+  const double mu = -view.dot(normal);
+  const Vec3 arriving = to_light - cosine * normal;
+  const Vec3 leaving = view + mu * normal;
+  const double both = arriving.norm() * leaving.norm();
+  const double cos_phi = both > 0.0 ? std::clamp(arriving.dot(leaving) / both, -1.0, 1.0) : 1.0;
+  Spectrum difference;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Reflections& r = reflections_[std::min(c, reflections_.size() - 1)];
+    difference[static_cast<int>(c)] =
+        r.own.multiple(mu, cosine, cos_phi) - r.similar.multiple(mu, cosine, cos_phi);
+  }
+  return difference;
 }
 
 Spectrum Gather::lights(const Vec3& position, const Vec3& view, const Optics& optics,
@@ -220,12 +279,12 @@ Spectrum Gather::lights(const Vec3& position, const Vec3& view, const Optics& op
     const auto sample = sample_light(light, position, rng);
     if (!sample) continue;
     // Through the object itself in this medium, then through whatever lies outside.
-    const auto way_out = caster_.nearest({position, sample->to_light, sample->distance}, object_);
-    const double inside = way_out ? way_out->t : sample->distance;
+    const auto surface = way_out({position, sample->to_light});
+    const double inside = surface ? std::min(surface->t, sample->distance) : 0.0;
     Spectrum passed = (-optics.sigma_t * inside).exp();
-    if (way_out)
-      passed *= transmittance(scene_, caster_, way_out->position, sample->to_light,
-                              sample->distance - inside);
+    if (inside < sample->distance)
+      passed *= transmittance(scene_, caster_, surface ? surface->position : position,
+                              sample->to_light, sample->distance - inside);
     const double cosine = sample->to_light.dot(view);
     for (int c = 0; c < 3; ++c)
       sum[c] += henyey_greenstein(cosine, optics.media[static_cast<std::size_t>(c)].g) *
@@ -240,15 +299,14 @@ Spectrum Gather::surroundings(const Vec3& position, const Vec3& view, const Opti
                               Rng& rng) const {
   const double u = rng.uniform();
   const Ray ray{position, sample_henyey_greenstein(view, optics.media[0].g, u, rng.uniform())};
-  const auto hit = caster_.nearest(ray, object_);
-  if (!hit) return Spectrum::Zero();
-  Spectrum weight = (-optics.sigma_t * hit->t).exp();
+  const auto hit = way_out(ray);
+  Spectrum weight = (-optics.sigma_t * (hit ? hit->t : 0.0)).exp();
   if (weight.maxCoeff() < invisible) return Spectrum::Zero();
   const double cosine = ray.direction.dot(view);
   for (int c = 1; c < 3; ++c)
     weight[c] *= henyey_greenstein(cosine, optics.media[static_cast<std::size_t>(c)].g) /
                  henyey_greenstein(cosine, optics.media[0].g);
-  return weight * outside_({{hit->position, ray.direction}, 0, false}, rng);
+  return weight * outside_({{hit ? hit->position : position, ray.direction}, 0, false}, rng);
 }
 
 }  // namespace knotlight

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "core/asymptotic.h"
+#include "core/half_space.h"
 #include "core/rng.h"
 #include "core/surface_layer.h"
 #include "grid/solver.h"
@@ -99,11 +100,15 @@ class Gather {
                    const Light& light) const;
   Spectrum scattered_once(const Vec3& position, const Vec3& view, const Optics& optics,
                           Rng& rng) const;
+  Spectrum reflected_beyond_similar(const Ray& ray, const Hit& hit, Rng& rng) const;
+  Spectrum more_than_similar(double cosine, const Vec3& view, const Vec3& to_light,
+                             const Vec3& normal) const;
   Spectrum lights(const Vec3& position, const Vec3& view, const Optics& optics, Rng& rng) const;
   Spectrum surroundings(const Vec3& position, const Vec3& view, const Optics& optics,
                         Rng& rng) const;
   double layer(int channel, const Segment& segment, double s) const;
   double curvature(const Hit& hit) const;
+  std::optional<Hit> way_out(const Ray& ray) const;
   int draw_channel(Rng& rng) const;
 
   const Scene& scene_;
@@ -112,8 +117,13 @@ class Gather {
   const TranslucentMaterial& material_;
   const InsideField& field_;
   OutsideRadiance outside_;
-  Optics once_;             // the object's medium
-  Optics multiply_;         // that of light scattered more than once
+  Optics once_;      // the object's medium
+  Optics multiply_;  // that of light scattered more than once
+  // Of half-spaces of both media, per channel; none if they are the same.
+  struct Reflections {
+    HalfSpaceReflection own, similar;
+  };
+  std::vector<Reflections> reflections_;
   bool dark_surroundings_;  // nothing but single lights can be met outside
   bool transient_;          // some channel goes beyond P1
 };

@@ -137,14 +137,20 @@ TEST(Layers, LightThatHasCrossedTheBallAndItsSource) {
 }
 
 // A ball that absorbs nothing under an even sky of radiance 1 is full of that radiance: fluence 4
-// pi everywhere. Asymptotic diffusion with its layer and transient part is within 4 % of that on
-// the surface.
+// pi everywhere. Half of it is U_ri, exact; diffusion's U_d on the surface of a ball of 5 mean free
+// paths is 10 % too large. Noise of the mean over 300 pixels: below 0.5 %.
 TEST(Layers, FluenceInAWhiteFurnace) {
-  for (const auto& source : {std::optional<SourceModel>(), std::optional(SourceModel::photon_map),
-                             std::optional(SourceModel::boundary_flux)}) {
+  const std::vector<std::pair<std::optional<SourceModel>, double>> cases = {
+      {std::nullopt, 0.0},
+      {SourceModel::photon_map, 0.0},
+      {SourceModel::photon_map, 0.7},
+      {SourceModel::boundary_flux, 0.0}};
+  for (const auto& [source, g] : cases) {
     Scene scene = ball_scene();
     scene.objects.erase(scene.objects.begin());
-    std::get<TranslucentMaterial>(scene.objects[0].material).sigma_a = Spectrum::Zero();
+    auto& wax = std::get<TranslucentMaterial>(scene.objects[0].material);
+    wax.sigma_a = Spectrum::Zero();
+    wax.g = Spectrum::Constant(g);
     scene.lights = {EnvironmentLight{Spectrum::Ones(), nullptr}};
     scene.solver.source = source;
     const Rendered r(std::move(scene), "fluence,U_ri,object");
@@ -155,12 +161,13 @@ TEST(Layers, FluenceInAWhiteFurnace) {
         sum += r.values("fluence.R")[i];
         ++pixels;
       }
-    EXPECT_NEAR(sum / pixels / (4.0 * pi), 1.0, 0.04);
+    EXPECT_NEAR(sum / pixels / (4.0 * pi), 1.0, 0.06);
   }
 }
 
-// Half the samples of a grid solution at a place on the surface are derivatives within one cell, of
-// first order: a few per cent.
+// What is left of the boundary condition at a place: derivatives of a trilinear field, of first
+// order in the cell size. 1 % here, 3 % with the steeper sources of g; a wrong sign or a missing
+// right-hand side is tens of per cent.
 TEST(Layers, ResidualAndErrorEstimateOfTheGrid) {
   for (const double g : {0.0, 0.6}) {
     Scene scene = ball_scene();
@@ -175,9 +182,8 @@ TEST(Layers, ResidualAndErrorEstimateOfTheGrid) {
       ++pixels;
       EXPECT_EQ(r.values("error_estimate.B")[i], estimate);
     });
-    std::printf("mean residual %g\n", sum / pixels);
     EXPECT_GT(sum / pixels, 0.0);
-    EXPECT_LT(sum / pixels, 0.1);
+    EXPECT_LT(sum / pixels, g == 0.0 ? 0.02 : 0.06);
     for_pixels(false, [&](std::size_t i, double, double) {
       EXPECT_EQ(r.values("error_estimate.R")[i], 0.0F);
     });
