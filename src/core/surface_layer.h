@@ -34,7 +34,7 @@ class SurfaceLayer {
 
 // The extrapolation length k (mean free paths) of a surface bent with the mean curvature H (1/mean
 // free path): k / (1 + 0.7104 H). The field falls towards 0 at a distance beyond the surface, not
-// by a slope that is the same whatever the shape; first order in H, without reflection.
+// by a slope that is the same whatever the shape; first order in H, without reflection [D57].
 double bent_extrapolation(double k, double curvature);
 
 // All that light feels of an object's surface.

@@ -22,10 +22,6 @@ namespace {
 using std::numbers::pi;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// Per place, of lights that are looked for by chance: 12 % noise of what varies as much as it is
-// large, and half a second for a picture of 256 x 256.
-constexpr int light_samples = 64;
-
 // What is not known is infinitely wrong; EXR readers draw not-a-number as they like.
 double infinite_if_unknown(double error) {
   return std::isnan(error) ? infinite : error;
@@ -94,6 +90,8 @@ class VisiblePlace {
   const std::vector<SolvedChannel>& solution() const {
     return view_.solved.objects[static_cast<std::size_t>(view_.solved_index[hit_.object])];
   }
+  // Of each light that is looked for by chance: as many as the picture has.
+  int samples() const { return scene_.camera.samples; }
   // Each use of random numbers has a stream of its own.
   enum class Use { light, transient, entering, uses };
   Rng rng(Use use) const {
@@ -115,7 +113,7 @@ class VisiblePlace {
 
 UnscatteredLight VisiblePlace::unscattered(const Scene& scene) const {
   Rng own = rng(Use::light);
-  return unscattered_light(scene, *view_.prepared.caster, hit_, light_samples, own);
+  return unscattered_light(scene, *view_.prepared.caster, hit_, samples(), own);
 }
 
 const UnscatteredLight& VisiblePlace::light() {
@@ -126,8 +124,8 @@ const UnscatteredLight& VisiblePlace::light() {
 // Irradiance that passes into the object, W/length^2.
 Spectrum VisiblePlace::entered() const {
   Rng own = rng(Use::entering);
-  return mean_irradiance(scene_, *view_.prepared.caster, hit_.position, hit_.normal, light_samples,
-                         own, material_->ior);
+  return mean_irradiance(scene_, *view_.prepared.caster, hit_.position, hit_.normal, samples(), own,
+                         material_->ior);
 }
 
 // The solution on the surface; beyond P1 completed as gather completes it (render/gather.h).
@@ -146,8 +144,8 @@ Spectrum VisiblePlace::U_d() {
   if (transient) {
     Rng own = rng(Use::transient);
     Spectrum sum = Spectrum::Zero();
-    for (int i = 0; i < light_samples; ++i) sum += gather->transient(hit_.position, own);
-    U += sum / light_samples;
+    for (int i = 0; i < samples(); ++i) sum += gather->transient(hit_.position, own);
+    U += sum / samples();
   }
   if (surface.counts_entering_light) return U - light().U_ri;
   // All light is the same in both media, what of it is not yet scattered is not.
