@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace knotlight {
 namespace {
@@ -12,15 +13,35 @@ namespace {
 // leave them a little less smooth.
 constexpr double spread_per_step = 0.6;
 constexpr int most_steps = 400;
-// Of a corner's angle: below it the triangle is a sliver, whose cotangent says nothing.
-constexpr double largest_cotangent = 50.0;
+// Half the angle by which the surface bends at an edge times its length is the integral of the mean
+// curvature there; the ends get half of it each [CM03].
+struct Edge {
+  std::uint32_t from, to;  // from < to
+  std::uint32_t triangle;
+};
 
-double cotangent(const Vec3& a, const Vec3& b) {
-  const double sine = a.cross(b).norm();
-  const double cosine = a.dot(b);
-  if (std::abs(cosine) >= largest_cotangent * sine)
-    return cosine < 0.0 ? -largest_cotangent : largest_cotangent;
-  return cosine / sine;
+std::vector<Edge> edges_of(const TriangleMesh& mesh) {
+  std::vector<Edge> edges;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t i = mesh.triangles[t][corner];
+      const std::uint32_t j = mesh.triangles[t][(corner + 1) % 3];
+      edges.push_back({std::min(i, j), std::max(i, j), t});
+    }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return std::tie(a.from, a.to, a.triangle) < std::tie(b.from, b.to, b.triangle);
+  });
+  return edges;
+}
+
+// The angle by which the surface turns from one triangle to the other, positive at a ridge.
+double bend_angle(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
+  const Vec3 n = mesh.normal(a);
+  const Vec3 m = mesh.normal(b);
+  const Vec3 between = (mesh.corner(b, 0) + mesh.corner(b, 1) + mesh.corner(b, 2) -
+                        mesh.corner(a, 0) - mesh.corner(a, 1) - mesh.corner(a, 2));
+  const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
+  return between.dot(m - n) >= 0.0 ? angle : -angle;
 }
 
 double weighted_median(const std::vector<double>& values, const std::vector<double>& weights) {
@@ -44,34 +65,27 @@ SurfaceCurvature::SurfaceCurvature(const Shape& shape, double scale)
     return;
   }
   const std::size_t n = mesh_->vertices.size();
-  // int H n dA around each vertex = 1/4 sum (cot + cot') (x_i - x_j), its area, its normal.
-  std::vector<Vec3> bend(n, Vec3::Zero());
-  std::vector<Vec3> normal(n, Vec3::Zero());
+  std::vector<double> curved(n, 0.0);  // integrals around each vertex
   std::vector<double> area(n, 0.0);
-  double edges = 0.0;
-  for (const Triangle& triangle : mesh_->triangles)
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const std::uint32_t i = triangle[corner];
-      const std::uint32_t j = triangle[(corner + 1) % 3];
-      const std::uint32_t k = triangle[(corner + 2) % 3];
-      const Vec3 a = mesh_->vertices[i] - mesh_->vertices[k];
-      const Vec3 b = mesh_->vertices[j] - mesh_->vertices[k];
-      const Vec3 part = 0.25 * cotangent(a, b) * (a - b);  // edge i-j, opposite to k
-      bend[i] += part;
-      bend[j] -= part;
-      const Vec3 doubled = a.cross(b);
-      normal[i] += doubled;
-      area[i] += doubled.norm() / 6.0;
-      edges += (a - b).norm();
-    }
-  const double edge = edges / (3.0 * static_cast<double>(mesh_->triangles.size()));
+  for (std::size_t t = 0; t < mesh_->triangles.size(); ++t)
+    for (const std::uint32_t i : mesh_->triangles[t]) area[i] += mesh_->area(t) / 3.0;
+  const std::vector<Edge> edges = edges_of(*mesh_);
+  double length_of_all = 0.0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const double length = (mesh_->vertices[edges[e].to] - mesh_->vertices[edges[e].from]).norm();
+    length_of_all += length;
+    if (e + 1 == edges.size() || edges[e + 1].from != edges[e].from ||
+        edges[e + 1].to != edges[e].to)
+      continue;
+    const double integral =
+        0.5 * length * bend_angle(*mesh_, edges[e].triangle, edges[e + 1].triangle);
+    if (!std::isfinite(integral)) continue;  // a triangle without area has no normal
+    curved[edges[e].from] += 0.5 * integral;
+    curved[edges[e].to] += 0.5 * integral;
+  }
+  const double edge = length_of_all / static_cast<double>(edges.size());
   const double ratio = scale / (spread_per_step * edge);
   const int steps = static_cast<int>(std::clamp(ratio * ratio, 1.0, double{most_steps}));
-  std::vector<double> curved(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double length = normal[i].norm();
-    curved[i] = length > 0.0 ? bend[i].dot(normal[i]) / length : 0.0;
-  }
   // Integrals of curvature and area are smoothed alike, so that what is concentrated in an edge of
   // a box is spread and not lost.
   const auto smooth = [&](std::vector<double>& values) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/glow.h"
 #include "view/priority.h"
 
 namespace knotlight {
@@ -102,7 +103,11 @@ void SolveThread::fulfil(const Wish& wish) {
   }
   enter(Activity::preview);
   const std::shared_ptr<const SolvedView> before = latest();
-  const bool field_stays = wish.change == Change::exitance && before;
+  // Gathered pictures solve another equation than the others (choose_for_picture).
+  SolverSettings wanted = wish.scene.solver;
+  choose_for_picture(wanted);
+  const bool field_stays = wish.change == Change::exitance && before &&
+                           wanted.diffusion == before->solved_scene->scene.solver.diffusion;
   const bool shown = attempt([&](RunContext& run) {
     if (field_stays) return with_exitance(*before, wish.scene, run);
     Scene scene = wish.scene;

@@ -80,6 +80,7 @@ std::shared_ptr<const SolvedView> solve_view(Scene scene, Quality quality, RunCo
   refuse_darkness(scene);
   auto view = std::make_shared<SolvedView>();
   view->quality = quality;
+  choose_for_picture(scene.solver);
   PreparedScene prepared = prepare_scene(std::move(scene));
   view->solved = std::make_shared<const SolvedScene>(solve_scene(prepared, run, factors));
   finish(*view, std::move(prepared), run);

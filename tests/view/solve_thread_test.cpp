@@ -77,6 +77,7 @@ TEST(SolveThread, FollowsTheMaterial) {
 TEST(SolveThread, AnotherExitanceKeepsTheSolution) {
   SolveThread thread({}, [] {});
   Scene scene = test::ball();
+  scene.solver.exitance = Exitance::p1;
   thread.request(scene, small_preview, Change::materials);
   thread.wait_until_idle();
   const auto before = thread.latest();
