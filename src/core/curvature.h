@@ -9,8 +9,8 @@
 namespace knotlight {
 
 // Mean curvature (half the sum of both principal ones, 1/length, positive where the body is
-// convex), averaged over about `scale` (length) around each place. A sphere: 1/radius. A mesh: by the
-// angles at its edges [CM03], smoothed over the surface.
+// convex), averaged over about `scale` (length) around each place. A sphere: 1/radius. A mesh: by
+// the angles at its edges [CM03], smoothed over the surface.
 class SurfaceCurvature {
  public:
   SurfaceCurvature(const Shape& shape, double scale);
