@@ -325,8 +325,8 @@ void RefractingSurface::find_on_sphere(const Vec3& p, const LightPlace& light,
   // The lit cap. f is steep where the surface is near to the point or to the light: nodes there.
   const double end = light.at_infinity ? 0.5 * pi : std::acos(R / light_distance);
   std::array<double, sphere_intervals + 2> nodes{};
-  for (int i = 0; i <= sphere_intervals; ++i)
-    nodes[static_cast<std::size_t>(i)] = end * (2.0 * i / sphere_intervals - 1.0);
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+    nodes[i] = end * (2.0 * static_cast<double>(i) / sphere_intervals - 1.0);
   nodes.back() = std::clamp(std::atan2(py, px), -end, end);
   std::sort(nodes.begin(), nodes.end());
 

@@ -119,7 +119,7 @@ Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double 
     bend = bend_end;
     depth_sample = rng.uniform();
   }
-  return sum;
+  return sum.max(0.0);  // the half-spaces' difference may take off more than is there at dark rims
 }
 
 // int_0^length exp(-sigma_t s) (sigma_s U_d + E / 4 pi) ds without the transient part.
