@@ -88,6 +88,7 @@ void PhotonWalk::meet_diffuse(Flight& flight, const Hit& hit, Rng& rng, PowerTal
   const double v = rng.uniform();
   static_cast<LightRay&>(flight) = reflected_diffusely(flight, hit, u, v);
   flight.straight = false;
+  flight.normal = Vec3::Zero();  // not a surface of the object it may be in
 }
 
 void PhotonWalk::walk_outside(Flight& flight, Rng& rng, WalkRecord& record) const {
@@ -139,8 +140,9 @@ void PhotonWalk::walk_inside(Flight& flight, Rng& rng, WalkRecord& record) const
   }
   if (!hit) {
     flight.position += distance * flight.direction;
-    flight.depth = flight.on_surface ? -distance * flight.direction.dot(flight.normal)
-                                     : std::numeric_limits<double>::infinity();
+    flight.depth = flight.on_surface && !flight.normal.isZero()
+                       ? -distance * flight.direction.dot(flight.normal)
+                       : std::numeric_limits<double>::infinity();
     flight.on_surface = false;
     interact(flight, rng, record);
     return;

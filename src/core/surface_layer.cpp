@@ -112,6 +112,7 @@ double SurfaceLayer::q(double tau) const {
 }
 
 double SurfaceLayer::weight(double tau, double k, double excess_curvature) const {
+  if (std::isinf(tau)) return 1.0;
   tau = std::max(tau, 0.0);
   const double bend = std::max(k * hopf_at_infinity * excess_curvature, (least_bend - 1.0) * k);
   return (tau + k - extrapolation() + q(tau)) / std::sqrt((tau + k) * (tau + k + bend));

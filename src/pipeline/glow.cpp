@@ -96,8 +96,7 @@ GlowingSurfaces glowing_surfaces(const PreparedScene& prepared, const SolvedScen
                                 ? *solution.on_surface
                                 : evaluate(solution, surface.grid.nodes(), run.workers));
       // What is met by looking for light, not by looking, is not gathered.
-      surface.leaving.emplace_back(object.translucent()->medium(static_cast<int>(c)),
-                                   scene.solver.boundary,
+      surface.leaving.emplace_back(object.translucent()->ior, solution.equation.coefficients.A,
                                    exitance == Exitance::gather ? Exitance::p1 : exitance);
       if (exitance == Exitance::gather) {
         if (solution.equation.beyond_p1 && !surface.inside.surface)

@@ -139,7 +139,8 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
       IncidentLight& incident = light[channel][i];
       const double photon_power = incident.photon_power();
       std::optional<GridField> U_ri;
-      if (wants_U_ri(i)) U_ri = unscattered_on_grid(grids[i]->fine, incident, medium);
+      if (wants_U_ri(i) && grids[i]->fine->ok())
+        U_ri = unscattered_on_grid(grids[i]->fine, incident, medium);
       const Equation equation =
           equation_for(scene, prepared.translucent[i], static_cast<int>(channel), plan.source,
                        surface[i] ? &*surface[i] : nullptr);
@@ -148,7 +149,8 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
           solve_channel(scene, *prepared.caster, prepared.translucent[i], static_cast<int>(channel),
                         equation, plan.methods[i].method, on_grid(i) ? &*grids[i] : nullptr,
                         incident, run.options.seed, workers, factors);
-      solved[system]->scattering = medium;
+      // Gathered light is taken as isotropic: with P1 and g != 0 that is the similar medium.
+      solved[system]->scattering = medium.similar();
       solved[system]->U_ri = std::move(U_ri);
       solved[system]->report.photon_power = photon_power;
       if (!keep_light) light[channel][i] = {};  // freed as we go
@@ -182,6 +184,11 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
         fmt::format("{} does not follow unscattered light that one surface throws on another or "
                     "one object lets through to another",
                     name_of(plan.source)));
+  if (plan.source != SourceModel::photon_map && refracts && scene.solver.diffusion)
+    result.report.failures.push_back(fmt::format(
+        "{} does not tell what a gathered picture needs of light inside refracting objects, "
+        "expected source photon_map or another exitance",
+        name_of(plan.source)));
   for (const std::string& inclusion : opaque_inclusions(scene, *prepared.caster))
     result.report.failures.push_back(inclusion + ": the diffusion equation does not know it");
   for (std::size_t i = 0; i < prepared.translucent.size(); ++i) {

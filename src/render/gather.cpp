@@ -66,17 +66,18 @@ Gather::Gather(const Scene& scene, const RayCaster& caster, std::uint32_t object
       });
   dark_surroundings_ =
       !shining_sky && scene.objects.size() == 1 && is_convex(scene.objects[object].shape);
+  transient_ = std::any_of(field.channels.begin(), field.channels.end(),
+                           [](const auto& channel) { return channel.beyond_p1.has_value(); });
   const auto scatters_unlike = [&](int c) {
     return once_.media[static_cast<std::size_t>(c)].g !=
            multiply_.media[static_cast<std::size_t>(c)].g;
   };
   // Under a refracting surface the half-spaces would have to have one too.
-  if (material_.ior == 1.0 && (scatters_unlike(0) || scatters_unlike(1) || scatters_unlike(2)))
+  if (transient_ && material_.ior == 1.0 &&
+      (scatters_unlike(0) || scatters_unlike(1) || scatters_unlike(2)))
     for (std::size_t c = 0; c < static_cast<std::size_t>(scene.channels); ++c)
       reflections_.push_back({{once_.media[c].albedo(), once_.media[c].g},
                               {multiply_.media[c].albedo(), multiply_.media[c].g}});
-  transient_ = std::any_of(field.channels.begin(), field.channels.end(),
-                           [](const auto& channel) { return channel.beyond_p1.has_value(); });
 }
 
 Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double depth_sample,
@@ -97,9 +98,12 @@ Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double 
     const Segment segment{ahead, hit->t, cosine, cosine_end, bend, bend_end};
     sum += passed * diffuse(segment, depth_sample);
     if (!field_.counts_entering_light) {
-      sum += unscattered * sampled(segment, once_, depth_sample, rng, [&](const Vec3& x) {
-               return scattered_once(x, ahead.direction, once_, rng);
-             });
+      // U_ri by the photons is that of the medium they were traced in.
+      const bool by_photons = field_.channels.front().U_ri.has_value();
+      const Optics& first = by_photons ? multiply_ : once_;
+      sum += (by_photons ? passed : unscattered) *
+             sampled(segment, first, depth_sample, rng,
+                     [&](const Vec3& x) { return scattered_once(x, ahead.direction, first, rng); });
       if (transient_)
         sum += passed * sampled(segment, multiply_, depth_sample, rng,
                                 [&](const Vec3& x) { return transient(x, rng); });
@@ -111,7 +115,7 @@ Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double 
     if (refracted && rng.uniform() >= fresnel_reflectance(cosine_end, 1.0 / material_.ior)) {
       if (unscattered.maxCoeff() >= invisible)
         sum += unscattered * material_.ior * material_.ior *
-               outside_({{hit->position, *refracted}, bounces, true}, rng);
+               outside_({{hit->position, *refracted}, bounces, true, true}, rng);
       break;
     }
     ahead = {hit->position, reflect(ahead.direction, hit->normal)};
@@ -179,7 +183,9 @@ Spectrum Gather::sampled(const Segment& segment, const Optics& optics, double de
   const Spectrum& sigma_t = optics.sigma_t;
   const double s = depth(depth_sample, sigma_t[draw_channel(rng)], segment.length);
   const Spectrum passed = (-sigma_t * s).exp();
-  const Spectrum density = sigma_t * passed / (1.0 - (-sigma_t * segment.length).exp());
+  const Spectrum interacting =
+      (sigma_t * segment.length).unaryExpr([](double tau) { return -std::expm1(-tau); });
+  const Spectrum density = sigma_t * passed / interacting;
   return optics.sigma_s * passed / density.mean() *
          light(segment.ray.origin + s * segment.ray.direction);
 }
@@ -252,7 +258,7 @@ Spectrum Gather::reflected_beyond_similar(const Ray& ray, const Hit& hit, Rng& r
   const double u = rng.uniform();
   const Vec3 w = Frame(n).to_world(sample_cosine_hemisphere(u, rng.uniform()));
   return sum + pi * more_than_similar(w.dot(n), ray.direction, w, n) *
-                   outside_({{hit.position, w}, 0, false}, rng);
+                   outside_({{hit.position, w}, 0, false, false}, rng);
 }
 
 // Difference of both half-spaces' reflection, 1/sr.
@@ -262,6 +268,7 @@ Spectrum Gather::more_than_similar(double cosine, const Vec3& view, const Vec3& 
   const Vec3 arriving = to_light - cosine * normal;
   const Vec3 leaving = view + mu * normal;
   const double both = arriving.norm() * leaving.norm();
+  if (mu <= 0.0 || cosine <= 0.0) return Spectrum::Zero();  // through a crack of the mesh
   const double cos_phi = both > 0.0 ? std::clamp(arriving.dot(leaving) / both, -1.0, 1.0) : 1.0;
   Spectrum difference;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -306,7 +313,7 @@ Spectrum Gather::surroundings(const Vec3& position, const Vec3& view, const Opti
   for (int c = 1; c < 3; ++c)
     weight[c] *= henyey_greenstein(cosine, optics.media[static_cast<std::size_t>(c)].g) /
                  henyey_greenstein(cosine, optics.media[0].g);
-  return weight * outside_({{hit ? hit->position : position, ray.direction}, 0, false}, rng);
+  return weight * outside_({{hit ? hit->position : position, ray.direction}, 0, false, true}, rng);
 }
 
 }  // namespace knotlight

@@ -55,6 +55,8 @@ struct OutsideRay {
   // Whether the eye follows it, and sees all; or light is looked for where it leads, then the
   // lights that are sampled one by one do not count, and objects glow as their surface does.
   bool seen;
+  // Whether it comes out of an object here: what touches the surface outside is met at once.
+  bool leaving;
 };
 using OutsideRadiance = std::function<Spectrum(const OutsideRay& ray, Rng& rng)>;
 

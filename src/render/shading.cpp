@@ -45,7 +45,7 @@ Shading::Shading(const Scene& scene, const RayCaster& caster, const GlowingSurfa
     if (surfaces[i] && !surfaces[i]->inside.channels.empty())
       gathers_.back().emplace(
           scene, caster, i, surfaces[i]->inside, [this](const OutsideRay& ray, Rng& rng) {
-            return radiance(ray.ray, {ray.bounces, ray.seen, rng.uniform()}, rng);
+            return radiance(ray.ray, {ray.bounces, ray.seen, rng.uniform(), ray.leaving}, rng);
           });
   }
 }
@@ -55,8 +55,10 @@ Spectrum Shading::radiance(const Ray& ray, double depth_sample, Rng& rng) const 
 }
 
 Spectrum Shading::radiance(const Ray& ray, const Look& look, Rng& rng) const {
-  const auto hit = caster_.nearest(ray);
-  const double distance = hit ? hit->t : ray.t_max;
+  auto hit = look.leaving ? opaque_contact(scene_, caster_, ray.origin, ray.direction)
+                          : std::optional<Hit>();
+  if (!hit) hit = caster_.nearest(ray);
+  const double distance = hit ? std::max(hit->t, 0.0) : ray.t_max;
   if (const auto light = area_light_seen(scene_, {ray.origin, ray.direction, distance}))
     return look.seen ? *light : Spectrum(Spectrum::Zero());
   if (!hit)
@@ -64,7 +66,7 @@ Spectrum Shading::radiance(const Ray& ray, const Look& look, Rng& rng) const {
   const Object& object = scene_.objects[hit->object];
   if (std::holds_alternative<DiffuseMaterial>(object.material)) {
     const Spectrum light = reflected_radiance(scene_, caster_, *hit, ray.direction, rng);
-    return look.seen ? Spectrum(light + glow_reflected(*hit, ray.direction, rng)) : light;
+    return light + glow_reflected(*hit, ray.direction, rng);
   }
   return translucent_radiance(ray, *hit, *object.translucent(), look, rng);
 }
@@ -99,7 +101,10 @@ Spectrum Shading::translucent_radiance(const Ray& ray, const Hit& hit,
     const SurfaceEvent event =
         cross_rough_surface(ray.direction, n, material.ior, material.alpha(), rng);
     reflectance = event.transmitted ? 0.0 : 1.0;
-    (event.transmitted ? *inwards : mirrored) = event.direction;
+    if (event.transmitted)
+      inwards = event.direction;
+    else
+      mirrored = event.direction;
   }
   Spectrum light = Spectrum::Zero();
   if (!gathers_[hit.object]) {
@@ -146,8 +151,8 @@ Spectrum Shading::seen_through(const Ray& ray, const Hit& hit, const Translucent
   if (!way_out || look.bounces == 0) return Spectrum::Zero();
   const Spectrum passed = (-(material.sigma_a + material.sigma_s) * way_out->t).exp();
   if (passed.maxCoeff() < invisible) return Spectrum::Zero();
-  return passed *
-         radiance({way_out->position, ray.direction}, {look.bounces - 1, true, rng.uniform()}, rng);
+  return passed * radiance({way_out->position, ray.direction},
+                           {look.bounces - 1, true, rng.uniform(), true}, rng);
 }
 
 Vec3 Shading::shading_normal(const Hit& hit) const {

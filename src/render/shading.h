@@ -52,6 +52,7 @@ class Shading {
     int bounces;
     bool seen;
     double depth_sample;
+    bool leaving = false;  // OutsideRay
   };
   Spectrum radiance(const Ray& ray, const Look& look, Rng& rng) const;
   Spectrum translucent_radiance(const Ray& ray, const Hit& hit, const TranslucentMaterial& material,
