@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/clock.h"
+
 namespace knotlight {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int bar_width = 30;
 constexpr long redraw_interval_ms = 100;  // often enough to look alive, too seldom to cost anything
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 }  // namespace
 

@@ -86,8 +86,7 @@ GlowingSurfaces glowing_surfaces(const PreparedScene& prepared, const SolvedScen
     const std::uint32_t index = prepared.translucent[i];
     const Object& object = scene.objects[index];
     GlowingSurface& surface = surfaces[index].emplace(SurfaceGrid(object.shape));
-    surface.counts_entering_light = solved.plan.source == SourceModel::boundary_flux;
-    surface.inside.counts_entering_light = surface.counts_entering_light;
+    surface.inside.counts_entering_light = solved.plan.source == SourceModel::boundary_flux;
     std::shared_ptr<const GridGeometry> geometry;  // for fields that are on no grid
     std::optional<GridNodes> nodes;
     for (std::size_t c = 0; c < channels; ++c) {

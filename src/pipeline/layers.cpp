@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/errors.h"
+#include "core/per_channel.h"
 #include "pipeline/unscattered_light.h"
 #include "scene/nearest_name.h"
 #include "trace/camera_rays.h"
@@ -79,13 +80,9 @@ class VisiblePlace {
   Spectrum error_estimate() const;
 
  private:
-  // One value per channel of the scene, as pictures have it: a single one three times.
   template <typename Value>
   Spectrum per_channel(const Value& value) const {
-    Spectrum result;
-    for (int c = 0; c < scene_.channels; ++c) result[c] = value(c);
-    for (int c = scene_.channels; c < 3; ++c) result[c] = result[0];
-    return result;
+    return knotlight::per_channel(scene_.channels, value);
   }
   const std::vector<SolvedChannel>& solution() const {
     return view_.solved.objects[static_cast<std::size_t>(view_.solved_index[hit_.object])];
@@ -147,7 +144,7 @@ Spectrum VisiblePlace::U_d() {
     for (int i = 0; i < samples(); ++i) sum += gather->transient(hit_.position, own);
     U += sum / samples();
   }
-  if (surface.counts_entering_light) return U - light().U_ri;
+  if (surface.inside.counts_entering_light) return U - light().U_ri;
   // All light is the same in both media, what of it is not yet scattered is not.
   return view_.similar ? Spectrum(U + unscattered(view_.similar->scene).U_ri - light().U_ri) : U;
 }

@@ -160,4 +160,18 @@ Plan make_plan(const PreparedScene& prepared) {
   return plan;
 }
 
+const char* name_of(Exitance exitance) {
+  switch (exitance) {
+    case Exitance::gather:
+      return "gather";
+    case Exitance::p1:
+      return "p1";
+    case Exitance::lambert:
+      return "lambert";
+    case Exitance::mean_intensity:
+      return "mean_intensity";
+  }
+  return "";
+}
+
 }  // namespace knotlight

@@ -24,5 +24,6 @@ Plan make_plan(const PreparedScene& prepared);
 
 const char* name_of(SourceModel model);
 const char* name_of(Method method);
+const char* name_of(Exitance exitance);
 
 }  // namespace knotlight

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/clock.h"
 #include "core/errors.h"
 #include "core/image_io.h"
+#include "pipeline/picture_metadata.h"
 #include "pipeline/scene_setup.h"
 #include "reference/path_film.h"
 #include "reference/path_tracer.h"
@@ -18,8 +20,6 @@
 namespace knotlight {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double seconds_between_checkpoints = 10.0;  // what an interruption costs at most
 // A pass shorter than this is made longer next time: checkpoints are possible between passes only.
 constexpr double seconds_per_pass = 2.0;
@@ -27,10 +27,6 @@ constexpr double seconds_per_pass = 2.0;
 // More of the lamps' light than this going other ways than can be followed makes the picture wrong
 // by more than references are asked for.
 constexpr double tolerated_unfound_share = 0.01;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Passes until the film has `wanted` samples, with checkpoints in `part`.
 void fill(PathFilm& film, std::uint64_t wanted, const PreparedScene& prepared, std::uint64_t key,
@@ -54,19 +50,11 @@ void fill(PathFilm& film, std::uint64_t wanted, const PreparedScene& prepared, s
 
 Metadata reference_metadata(const Scene& scene, const std::string& path,
                             const ReferenceSummary& summary, const RunContext& run) {
-  Metadata metadata = {{"Software", "knotlight " KNOTLIGHT_VERSION},
-                       {"knotlight:scene", path},
-                       {"knotlight:units", fmt::format("radiance in W/({0}^2 sr)", scene.units)},
-                       {"knotlight:method", "volume path tracing"},
-                       {"knotlight:variance", "of the mean over independent samples"},
-                       {"knotlight:samples", fmt::format("{}", summary.samples)},
-                       {"knotlight:noise", fmt::format("{:.4g}", summary.noise)},
-                       {"knotlight:seed", fmt::format("{}", run.options.seed)},
-                       {"knotlight:trusted", summary.failures().empty() ? "yes" : "no"}};
-  for (const std::string& failure : summary.failures())
-    metadata.emplace_back("knotlight:failures", failure);
-  for (const std::string& item : run.options.overrides)
-    metadata.emplace_back("knotlight:set", item);
+  Metadata metadata = picture_metadata(scene, path, summary.failures(), run);
+  metadata.insert(metadata.end(), {{"knotlight:method", "volume path tracing"},
+                                   {"knotlight:variance", "of the mean over independent samples"},
+                                   {"knotlight:samples", fmt::format("{}", summary.samples)},
+                                   {"knotlight:noise", fmt::format("{:.4g}", summary.noise)}});
   return metadata;
 }
 

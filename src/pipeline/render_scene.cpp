@@ -6,6 +6,7 @@
 
 #include "core/image_io.h"
 #include "pipeline/layers.h"
+#include "pipeline/picture_metadata.h"
 #include "pipeline/scene_setup.h"
 #include "pipeline/solution_file.h"
 #include "pipeline/solve_scene.h"
@@ -14,40 +15,17 @@
 namespace knotlight {
 namespace {
 
-const char* name_of(Exitance exitance) {
-  switch (exitance) {
-    case Exitance::p1:
-      return "p1";
-    case Exitance::lambert:
-      return "lambert";
-    case Exitance::mean_intensity:
-      return "mean_intensity";
-    case Exitance::gather:
-      return "gather";
-  }
-  return "";
-}
-
-// What a picture file says about itself.
-Metadata picture_metadata(const Scene& scene, const std::string& path, const Report& report,
-                          const RunContext& run) {
-  Metadata metadata = {
-      {"Software", "knotlight " KNOTLIGHT_VERSION},
-      {"knotlight:scene", path},
-      {"knotlight:units", fmt::format("radiance in W/({0}^2 sr)", scene.units)},
-      {"knotlight:exitance", name_of(chosen_exitance(scene.solver))},
-      {"knotlight:boundary", scene.solver.boundary == Boundary::milne ? "milne" : "marshak"},
-      {"knotlight:photons", fmt::format("{}", scene.solver.photons)},
-      {"knotlight:tolerance", fmt::format("{}", scene.solver.tolerance)},
-      {"knotlight:seed", fmt::format("{}", run.options.seed)},
-      {"knotlight:trusted", report.failures.empty() ? "yes" : "no"}};
+Metadata render_metadata(const Scene& scene, const std::string& path, const Report& report,
+                         const RunContext& run) {
+  Metadata metadata = picture_metadata(scene, path, report.failures, run);
+  metadata.insert(
+      metadata.end(),
+      {{"knotlight:exitance", name_of(chosen_exitance(scene.solver))},
+       {"knotlight:boundary", scene.solver.boundary == Boundary::milne ? "milne" : "marshak"},
+       {"knotlight:photons", fmt::format("{}", scene.solver.photons)},
+       {"knotlight:tolerance", fmt::format("{}", scene.solver.tolerance)}});
   for (const ObjectReport& object : report.objects)
     metadata.emplace_back("knotlight:method:" + object.name, object.method);
-  for (const std::string& item : run.options.overrides)
-    metadata.emplace_back("knotlight:set", item);
-  if (!report.failures.empty())
-    metadata.emplace_back("knotlight:failures",
-                          fmt::format("{}", fmt::join(report.failures, "; ")));
   return metadata;
 }
 
@@ -83,7 +61,7 @@ Report render_scene(const std::string& path, const RenderFiles& files, RunContex
   if (!run.options.quiet)
     for (const std::string& warning : layers.warnings) fmt::print(stderr, "warning: {}\n", warning);
   const Stage stage(run.stages, "write", 0);
-  const Metadata metadata = picture_metadata(prepared.scene, path, solved.report, run);
+  const Metadata metadata = render_metadata(prepared.scene, path, solved.report, run);
   for (const std::string& picture : files.pictures) {
     if (!layers.channels.empty() && holds_layers(picture))
       write_picture_with_layers(picture, image, layers, metadata);

@@ -49,20 +49,8 @@ Spectrum seen_along(const Scene& scene, const RayCaster& caster, const Vec3& x, 
   if (hit)
     return reflected_radiance(scene, caster, *hit, w, rng) *
            transmittance(scene, caster, x, w, (hit->position - x).dot(w));
-  Spectrum sky = Spectrum::Zero();
-  for (const Light& light : scene.lights)
-    if (const auto* environment = std::get_if<EnvironmentLight>(&light);
-        environment != nullptr && environment->map == nullptr)
-      sky += environment->radiance;
-  return sky * transmittance(scene, caster, x, w, std::numeric_limits<double>::infinity());
-}
-
-bool exact_with_one_sample(const Scene& scene) {
-  return !surroundings_reflect(scene) &&
-         std::all_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-           return std::holds_alternative<PointLight>(light) ||
-                  std::holds_alternative<DirectionalLight>(light);
-         });
+  return constant_environment(scene) *
+         transmittance(scene, caster, x, w, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace
@@ -70,7 +58,7 @@ bool exact_with_one_sample(const Scene& scene) {
 UnscatteredLight unscattered_light(const Scene& scene, const RayCaster& caster, const Hit& hit,
                                    int samples, Rng& rng) {
   const double ior = scene.objects[hit.object].translucent()->ior;
-  const bool exact = exact_with_one_sample(scene);
+  const bool exact = irradiance_is_exact(scene) && !surroundings_reflect(scene);
   const int needed = exact ? 1 : samples;
   UnscatteredLight sum;
   for (int i = 0; i < needed; ++i) {

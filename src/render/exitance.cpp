@@ -11,9 +11,6 @@ namespace knotlight {
 
 // With L_out = C T(mu) (1 + c mu), mu the cosine inside, and mu_out dw_out = ior^2 mu dw [radiance
 // compression], the flux is C ior^2 pi m(c), m(c) = transmitted_flux_moment. It must be 2 pi U_d/A.
-LeavingRadiance::LeavingRadiance(const Medium& medium, Boundary boundary, Exitance model)
-    : LeavingRadiance(medium.ior, diffusion_coefficients(medium, boundary).A, model) {}
-
 LeavingRadiance::LeavingRadiance(double ior, double A, Exitance model)
     : ior_(ior), mean_intensity_(model == Exitance::mean_intensity) {
   assert(model != Exitance::gather);

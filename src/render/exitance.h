@@ -13,9 +13,7 @@ namespace knotlight {
 class LeavingRadiance {
  public:
   // model: p1 (slope 3 / (2 A), from L = U_d + (3 / 4 pi) F_d . w [I78]), lambert (slope 0) or
-  // mean_intensity.
-  LeavingRadiance(const Medium& medium, Boundary boundary, Exitance model);
-  // The same for a field that was solved with another A (DiffusionCoefficients).
+  // mean_intensity. A: that the field was solved with (DiffusionCoefficients).
   LeavingRadiance(double ior, double A, Exitance model);
 
   // cos_out = cosine in (0, 1] between the outward normal and the direction of the leaving light,

@@ -6,6 +6,7 @@
 
 #include "core/convexity.h"
 #include "core/fresnel.h"
+#include "core/per_channel.h"
 #include "core/phase_function.h"
 #include "core/sampling.h"
 #include "trace/direct_light.h"
@@ -59,13 +60,8 @@ Gather::Gather(const Scene& scene, const RayCaster& caster, std::uint32_t object
       outside_(std::move(outside)),
       once_(media_of(material_)),
       multiply_(media_of(field)) {
-  const bool shining_sky =
-      std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
-        const auto* sky = std::get_if<EnvironmentLight>(&light);
-        return sky != nullptr && sky->map == nullptr;
-      });
-  dark_surroundings_ =
-      !shining_sky && scene.objects.size() == 1 && is_convex(scene.objects[object].shape);
+  dark_surroundings_ = (constant_environment(scene) == 0.0).all() && scene.objects.size() == 1 &&
+                       is_convex(scene.objects[object].shape);
   transient_ = std::any_of(field.channels.begin(), field.channels.end(),
                            [](const auto& channel) { return channel.beyond_p1.has_value(); });
   const auto scatters_unlike = [&](int c) {
@@ -128,29 +124,27 @@ Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double 
 
 // int_0^length exp(-sigma_t s) (sigma_s U_d + E / 4 pi) ds without the transient part.
 Spectrum Gather::diffuse(const Segment& segment, double depth_sample) const {
-  Spectrum sum;
-  for (int c = 0; c < scene_.channels; ++c) {
+  return per_channel(scene_.channels, [&](int c) {
     const Medium& medium = multiply_.media[static_cast<std::size_t>(c)];
-    sum[c] = diffuse(c, segment, depth_sample) - medium.emission / (4.0 * pi * medium.sigma_t()) *
-                                                     std::expm1(-medium.sigma_t() * segment.length);
-  }
-  for (int c = scene_.channels; c < 3; ++c) sum[c] = sum[0];
-  return sum;
+    const double interacting = -std::expm1(-medium.sigma_t() * segment.length);
+    return interacting * (medium.albedo() * mean_U_d(c, segment, depth_sample) +
+                          medium.emission / (4.0 * pi * medium.sigma_t()));
+  });
 }
 
-// One stratified sample in each of `lookups` equal shares of the light.
-double Gather::diffuse(int channel, const Segment& segment, double depth_sample) const {
-  const Medium& medium = multiply_.media[static_cast<std::size_t>(channel)];
+// Over the share of the light that interacts on the segment: one stratified sample in each of
+// `lookups` equal parts of it.
+double Gather::mean_U_d(int channel, const Segment& segment, double depth_sample) const {
+  const double sigma_t = multiply_.sigma_t[channel];
   const InsideField::Channel& field = field_.channels[static_cast<std::size_t>(channel)];
   double sum = 0.0;
   for (int i = 0; i < lookups; ++i) {
-    const double s = depth((i + depth_sample) / lookups, medium.sigma_t(), segment.length);
+    const double s = depth((i + depth_sample) / lookups, sigma_t, segment.length);
     // A ray that has slipped through an edge of the mesh finds nothing outside.
     const double U_d = field.U_d.value_or_nothing(segment.ray.origin + s * segment.ray.direction);
     sum += field.beyond_p1 ? U_d * layer(channel, segment, s) : U_d;
   }
-  const double interacting = -std::expm1(-medium.sigma_t() * segment.length);
-  return medium.albedo() * interacting * sum / lookups;
+  return sum / lookups;
 }
 
 // The layer weight of the nearer of the planes that touch the surface at both ends.
@@ -193,13 +187,10 @@ Spectrum Gather::sampled(const Segment& segment, const Optics& optics, double de
 // int p L_ri dw', light that is scattered into the view for the first time.
 Spectrum Gather::scattered_once(const Vec3& position, const Vec3& view, const Optics& optics,
                                 Rng& rng) const {
-  if (field_.channels.front().U_ri) {
-    Spectrum U_ri;
-    for (int c = 0; c < scene_.channels; ++c)
-      U_ri[c] = field_.channels[static_cast<std::size_t>(c)].U_ri->value_or_nothing(position);
-    for (int c = scene_.channels; c < 3; ++c) U_ri[c] = U_ri[0];
-    return U_ri;
-  }
+  if (field_.channels.front().U_ri)
+    return per_channel(scene_.channels, [&](int c) {
+      return field_.channels[static_cast<std::size_t>(c)].U_ri->value_or_nothing(position);
+    });
   const Spectrum light = lights(position, view, optics, rng);
   return dark_surroundings_ ? light : Spectrum(light + surroundings(position, view, optics, rng));
 }
@@ -230,12 +221,11 @@ Spectrum Gather::transient(const Vec3& position, Rng& rng) const {
     left -= hit->t;
   }
   const Spectrum passed = (-sigma_t * r).exp();
-  Spectrum weight = passed / (sigma_t * passed).mean();
-  for (int c = 0; c < 3; ++c) {
-    const auto& field =
-        field_.channels[static_cast<std::size_t>(std::min(c, scene_.channels - 1))].beyond_p1;
-    weight[c] *= field ? field->epsilon(sigma_t[c] * r) : 0.0;
-  }
+  const Spectrum epsilon = per_channel(scene_.channels, [&](int c) {
+    const auto& field = field_.channels[static_cast<std::size_t>(c)].beyond_p1;
+    return field ? field->epsilon(sigma_t[c] * r) : 0.0;
+  });
+  const Spectrum weight = passed / (sigma_t * passed).mean() * epsilon;
   const Vec3 first = flight.origin + left * flight.direction;
   return weight * (multiply_.sigma_s * scattered_once(first, flight.direction, multiply_, rng) +
                    material_.emission / (4.0 * pi));
@@ -265,18 +255,15 @@ Spectrum Gather::reflected_beyond_similar(const Ray& ray, const Hit& hit, Rng& r
 Spectrum Gather::more_than_similar(double cosine, const Vec3& view, const Vec3& to_light,
                                    const Vec3& normal) const {
   const double mu = -view.dot(normal);
+  if (mu <= 0.0 || cosine <= 0.0) return Spectrum::Zero();  // through a crack of the mesh
   const Vec3 arriving = to_light - cosine * normal;
   const Vec3 leaving = view + mu * normal;
   const double both = arriving.norm() * leaving.norm();
-  if (mu <= 0.0 || cosine <= 0.0) return Spectrum::Zero();  // through a crack of the mesh
   const double cos_phi = both > 0.0 ? std::clamp(arriving.dot(leaving) / both, -1.0, 1.0) : 1.0;
-  Spectrum difference;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Reflections& r = reflections_[std::min(c, reflections_.size() - 1)];
-    difference[static_cast<int>(c)] =
-        r.own.multiple(mu, cosine, cos_phi) - r.similar.multiple(mu, cosine, cos_phi);
-  }
-  return difference;
+  return per_channel(scene_.channels, [&](int c) {
+    const Reflections& r = reflections_[static_cast<std::size_t>(c)];
+    return r.own.multiple(mu, cosine, cos_phi) - r.similar.multiple(mu, cosine, cos_phi);
+  });
 }
 
 Spectrum Gather::lights(const Vec3& position, const Vec3& view, const Optics& optics,

@@ -43,8 +43,9 @@ struct InsideField {
   };
   std::vector<Channel> channels;
   std::optional<FeltSurface> surface;  // where some channel goes beyond P1
-  // U_d holds all light, that which has not been scattered yet too (the source model
-  // boundary_flux): nothing is to be added from the lights.
+  // U_d, also that on the surface, holds U_ri too, of light which is diffuse from the moment it
+  // enters (the source model boundary_flux): nothing is to be added from the lights, and entered /
+  // (2 pi) has to come off for the flux that leaves.
   bool counts_entering_light = false;
 };
 
@@ -96,7 +97,7 @@ class Gather {
     explicit Optics(std::vector<Medium> m);
   };
   Spectrum diffuse(const Segment& segment, double depth_sample) const;
-  double diffuse(int channel, const Segment& segment, double depth_sample) const;
+  double mean_U_d(int channel, const Segment& segment, double depth_sample) const;
   template <class Light>
   Spectrum sampled(const Segment& segment, const Optics& optics, double depth_sample, Rng& rng,
                    const Light& light) const;

@@ -6,6 +6,7 @@
 
 #include "core/fresnel.h"
 #include "core/microfacet.h"
+#include "core/per_channel.h"
 #include "core/sampling.h"
 #include "trace/direct_light.h"
 #include "trace/surroundings.h"
@@ -20,15 +21,6 @@ constexpr int most_bounces = 4;        // R^4 < 1e-5 away from grazing angles
 constexpr double crease_cosine = 0.7;  // facets within 45 degrees are shaded as one smooth surface
 // Smoothed normals can face away from the eye at silhouettes; leaving light then takes this cosine.
 constexpr double least_cosine = 1e-3;
-
-// What a ray meets outside that is not sampled as a light of its own (Gather).
-Spectrum constant_environment(const Scene& scene) {
-  Spectrum sum = Spectrum::Zero();
-  for (const Light& light : scene.lights)
-    if (const auto* sky = std::get_if<EnvironmentLight>(&light); sky && sky->map == nullptr)
-      sum += sky->radiance;
-  return sum;
-}
 
 }  // namespace
 
@@ -129,18 +121,16 @@ Spectrum Shading::translucent_radiance(const Ray& ray, const Hit& hit,
 Spectrum Shading::surface_radiance(const Hit& hit, const Vec3& normal, double cosine,
                                    const TranslucentMaterial& material, Rng& rng) const {
   const GlowingSurface& surface = *surfaces_[hit.object];
-  const Spectrum entered = surface.counts_entering_light
+  const Spectrum entered = surface.inside.counts_entering_light
                                ? mean_irradiance(scene_, caster_, hit.position, normal,
                                                  entering_samples, rng, material.ior)
                                : Spectrum(Spectrum::Zero());
-  Spectrum light;
-  for (int c = 0; c < 3; ++c) {
-    const auto channel = static_cast<std::size_t>(std::min(c, scene_.channels - 1));
+  return per_channel(scene_.channels, [&](int c) {
+    const auto channel = static_cast<std::size_t>(c);
     const double U_d = surface.grid.interpolate(surface.U_d[channel], hit) -
                        DiffusionCoefficients::boundary_flux_U_ri(entered[c]);
-    light[c] = surface.leaving[channel](U_d, cosine);
-  }
-  return light;
+    return surface.leaving[channel](U_d, cosine);
+  });
 }
 
 // What lies behind an index-matched object, weakened by exp(-sigma_t length). (A refracting one

@@ -23,9 +23,6 @@ struct GlowingSurface {
   std::vector<Eigen::VectorXd> U_d;      // per channel, one value per grid node, W/(length^2 sr)
   std::vector<LeavingRadiance> leaving;  // per channel
   InsideField inside;  // exitance gather looks into the object; else without channels
-  // U_d holds U_ri too, that of light which is diffuse from the moment it enters (the source model
-  // boundary_flux); entered / (2 pi) has to come off.
-  bool counts_entering_light = false;
 };
 
 // One per scene object, empty for diffuse ones.

@@ -1,36 +1,11 @@
 #include "scene/scene_reader.h"
 
-#include <algorithm>
-
 #include "core/errors.h"
 #include "scene/scene_parts.h"
+#include "scene/shines.h"
 #include "scene/yaml_override.h"
 
 namespace knotlight {
-namespace {
-
-bool shines(const Light& light) {
-  const Spectrum& power = std::visit(
-      [](const auto& l) -> const Spectrum& {
-        using L = std::decay_t<decltype(l)>;
-        if constexpr (std::is_same_v<L, PointLight>) {
-          return l.intensity;
-        } else if constexpr (std::is_same_v<L, DirectionalLight>) {
-          return l.irradiance;
-        } else {
-          return l.radiance;
-        }
-      },
-      light);
-  return (power > 0.0).any();
-}
-
-bool shines(const Object& object) {
-  const TranslucentMaterial* material = object.translucent();
-  return material != nullptr && (material->emission > 0.0).any();
-}
-
-}  // namespace
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
   YamlNode root = read_yaml(path);
@@ -54,11 +29,7 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   scene.objects = read_objects(require(root, "objects", "a list of objects"), materials, context);
   if (const YamlNode* solver = root.find("solver")) scene.solver = read_solver(*solver);
 
-  const bool is_dark = std::none_of(scene.lights.begin(), scene.lights.end(),
-                                    [](const Light& light) { return shines(light); }) &&
-                       std::none_of(scene.objects.begin(), scene.objects.end(),
-                                    [](const Object& object) { return shines(object); });
-  if (is_dark) {
+  if (!anything_shines(scene)) {
     const std::string what = "nothing shines, expected a light or an emission above 0";
     if (lights != nullptr) fail(*lights, what);
     throw InputError(root.origin + ": lights: " + what);

@@ -7,83 +7,12 @@
 
 #include "core/fresnel.h"
 #include "core/sampling.h"
+#include "trace/light_sample.h"
 #include "trace/surroundings.h"
 
 namespace knotlight {
-namespace {
 
 using std::numbers::pi;
-
-// Irradiance from one light, one overload per kind.
-struct IrradianceSampler {
-  const Scene& scene;
-  const RayCaster& caster;
-  const Vec3& position;
-  const Vec3& normal;
-  Rng& rng;
-  double ior;
-
-  // Share of the light from a direction at this cosine that passes the surface.
-  double entering(double cosine) const { return 1.0 - fresnel_reflectance(cosine, ior); }
-
-  Spectrum operator()(const PointLight& light) const {
-    const Vec3 to_light = light.position - position;
-    const double distance = to_light.norm();
-    const double cosine = normal.dot(to_light) / distance;
-    if (cosine <= 0.0) return Spectrum::Zero();
-    return light.intensity * (entering(cosine) * cosine / (distance * distance)) *
-           transmittance(scene, caster, position, to_light / distance, distance);
-  }
-
-  Spectrum operator()(const DirectionalLight& light) const {
-    const double cosine = -normal.dot(light.direction);
-    if (cosine <= 0.0) return Spectrum::Zero();
-    return light.irradiance * (entering(cosine) * cosine) *
-           transmittance(scene, caster, position, -light.direction,
-                         std::numeric_limits<double>::infinity());
-  }
-
-  // A point of the light with density 1/area per area.
-  Spectrum operator()(const AreaLight& light) const {
-    const double s = 2.0 * rng.uniform() - 1.0;
-    const double t = 2.0 * rng.uniform() - 1.0;
-    const Vec3 to_light = light.center + s * light.u + t * light.v - position;
-    const double distance = to_light.norm();
-    const Vec3 w = to_light / distance;
-    const double cosine = normal.dot(w);
-    const double cosine_light = -light.normal().dot(w);
-    if (cosine <= 0.0 || cosine_light <= 0.0) return Spectrum::Zero();
-    return light.radiance *
-           (entering(cosine) * light.area() * cosine * cosine_light / (distance * distance)) *
-           transmittance(scene, caster, position, w, distance);
-  }
-
-  Spectrum operator()(const EnvironmentLight& light) const {
-    const double u = rng.uniform();
-    const double v = rng.uniform();
-    if (light.map == nullptr) {  // constant: density cos/pi per solid angle cancels the cosine
-      const Vec3 w = Frame(normal).to_world(sample_cosine_hemisphere(u, v));
-      return pi * entering(w.dot(normal)) * light.radiance *
-             transmittance(scene, caster, position, w, std::numeric_limits<double>::infinity());
-    }
-    const EnvironmentMap::Sample sample = light.map->sample(u, v);
-    const double cosine = normal.dot(sample.direction);
-    if (cosine <= 0.0) return Spectrum::Zero();
-    return light.radiance * light.map->radiance(sample.direction) *
-           (entering(cosine) * cosine / sample.pdf) *
-           transmittance(scene, caster, position, sample.direction,
-                         std::numeric_limits<double>::infinity());
-  }
-};
-
-bool irradiance_is_exact(const Scene& scene) {
-  return std::all_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return std::holds_alternative<PointLight>(light) ||
-           std::holds_alternative<DirectionalLight>(light);
-  });
-}
-
-}  // namespace
 
 std::optional<Hit> opaque_contact(const Scene& scene, const RayCaster& caster, const Vec3& p,
                                   const Vec3& d) {
@@ -121,9 +50,28 @@ Spectrum transmittance(const Scene& scene, const RayCaster& caster, const Vec3& 
 Spectrum sample_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
                            const Vec3& normal, Rng& rng, double ior) {
   Spectrum sum = Spectrum::Zero();
-  for (const Light& light : scene.lights)
-    sum += std::visit(IrradianceSampler{scene, caster, position, normal, rng, ior}, light);
+  for (const Light& light : scene.lights) {
+    auto sample = sample_light(light, position, rng);
+    if (const auto* sky = std::get_if<EnvironmentLight>(&light); sky && sky->map == nullptr) {
+      // Density cos/pi per solid angle, which cancels the cosine.
+      const double u = rng.uniform();
+      const Vec3 w = Frame(normal).to_world(sample_cosine_hemisphere(u, rng.uniform()));
+      sample = LightSample{w, std::numeric_limits<double>::infinity(),
+                           pi / w.dot(normal) * sky->radiance};
+    }
+    const double cosine = sample ? normal.dot(sample->to_light) : 0.0;
+    if (cosine <= 0.0) continue;
+    sum += sample->irradiance * ((1.0 - fresnel_reflectance(cosine, ior)) * cosine) *
+           transmittance(scene, caster, position, sample->to_light, sample->distance);
+  }
   return sum;
+}
+
+bool irradiance_is_exact(const Scene& scene) {
+  return std::all_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return std::holds_alternative<PointLight>(light) ||
+           std::holds_alternative<DirectionalLight>(light);
+  });
 }
 
 Spectrum mean_irradiance(const Scene& scene, const RayCaster& caster, const Vec3& position,
@@ -161,11 +109,19 @@ std::optional<Spectrum> area_light_seen(const Scene& scene, const Ray& ray) {
   return seen;
 }
 
-Spectrum environment_radiance(const Scene& scene, const Vec3& direction) {
+Spectrum constant_environment(const Scene& scene) {
   Spectrum sum = Spectrum::Zero();
   for (const Light& light : scene.lights)
-    if (const auto* sky = std::get_if<EnvironmentLight>(&light))
-      sum += sky->map ? Spectrum(sky->radiance * sky->map->radiance(direction)) : sky->radiance;
+    if (const auto* sky = std::get_if<EnvironmentLight>(&light); sky && sky->map == nullptr)
+      sum += sky->radiance;
+  return sum;
+}
+
+Spectrum environment_radiance(const Scene& scene, const Vec3& direction) {
+  Spectrum sum = constant_environment(scene);
+  for (const Light& light : scene.lights)
+    if (const auto* sky = std::get_if<EnvironmentLight>(&light); sky && sky->map != nullptr)
+      sum += sky->radiance * sky->map->radiance(direction);
   return sum;
 }
 

@@ -35,6 +35,12 @@ Spectrum mean_irradiance(const Scene& scene, const RayCaster& caster, const Vec3
 // nothing if it meets none.
 std::optional<Spectrum> area_light_seen(const Scene& scene, const Ray& ray);
 
+// Whether one sample of the lights' irradiance is as good as many: all are points or directions.
+bool irradiance_is_exact(const Scene& scene);
+
+// The part of the radiance from infinity that is the same from everywhere.
+Spectrum constant_environment(const Scene& scene);
+
 // Radiance from infinity along a ray that meets nothing.
 Spectrum environment_radiance(const Scene& scene, const Vec3& direction);
 

@@ -2,25 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <utility>
 
+#include "core/clock.h"
 #include "view/priority.h"
 
 namespace knotlight {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::array<int, 8> strides = {1, 2, 3, 4, 6, 8, 12, 16};
 // For the first picture after a change: 30 frames a second, with something left for the window.
 constexpr double frame_seconds = 0.025;
 // Assumed before anything was measured: slow, so that the first frame is coarse at worst.
 constexpr double unknown_seconds_per_ray = 1e-6;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 RaySample ray_sample(const PictureWish& wish, const Look& look) {
   if (wish.layer != nullptr)

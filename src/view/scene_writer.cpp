@@ -111,20 +111,6 @@ const char* name_of(Boundary boundary) {
   return boundary == Boundary::milne ? "milne" : "marshak";
 }
 
-const char* name_of(Exitance exitance) {
-  switch (exitance) {
-    case Exitance::gather:
-      return "gather";
-    case Exitance::p1:
-      return "p1";
-    case Exitance::lambert:
-      return "lambert";
-    case Exitance::mean_intensity:
-      return "mean_intensity";
-  }
-  return "";
-}
-
 // Left out = chosen from the scene.
 template <class Choice>
 void put_choice(YamlNode& map, const std::string& key, const std::optional<Choice>& before,

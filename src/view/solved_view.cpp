@@ -1,67 +1,31 @@
 #include "view/solved_view.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
+#include "core/clock.h"
 #include "core/errors.h"
+#include "scene/shines.h"
 
 namespace knotlight {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-const Spectrum& power(const Light& light) {
-  return std::visit(
-      [](const auto& l) -> const Spectrum& {
-        using L = std::decay_t<decltype(l)>;
-        if constexpr (std::is_same_v<L, PointLight>) {
-          return l.intensity;
-        } else if constexpr (std::is_same_v<L, DirectionalLight>) {
-          return l.irradiance;
-        } else {
-          return l.radiance;
-        }
-      },
-      light);
-}
-
-void refuse_darkness(const Scene& scene) {
-  const bool lit = std::any_of(scene.lights.begin(), scene.lights.end(),
-                               [](const Light& light) { return (power(light) > 0.0).any(); });
-  const bool glows =
-      std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
-        return object.translucent() != nullptr && (object.translucent()->emission > 0.0).any();
-      });
-  if (!lit && !glows) throw InputError("nothing shines, expected a light or an emission above 0");
-}
-
-// Light is gathered inside objects where the solution is known there.
-bool gathers(const Scene& scene, const Plan& plan) {
-  const std::optional<Exitance> exitance = scene.solver.exitance;
-  return (!exitance || *exitance == Exitance::gather) &&
-         std::any_of(plan.methods.begin(), plan.methods.end(),
-                     [](const MethodChoice& choice) { return choice.method == Method::grid; });
-}
-
 // Fills in the looks of a view that has `solved`.
 void finish(SolvedView& view, PreparedScene prepared, RunContext& run) {
   auto scene = std::make_shared<PreparedScene>(std::move(prepared));
-  const auto shade = [&](Look& look) {
-    look.surfaces = glowing_surfaces(*scene, *view.solved, run);
+  const auto shade = [&](Look& look, GlowingSurfaces surfaces) {
+    look.surfaces = std::move(surfaces);
     look.shading = std::make_unique<const Shading>(scene->scene, *scene->caster, look.surfaces);
   };
-  if (gathers(scene->scene, view.solved->plan)) {
-    const std::optional<Exitance> wanted = scene->scene.solver.exitance;
-    scene->scene.solver.exitance = Exitance::p1;
-    shade(view.quick_look.emplace());
-    scene->scene.solver.exitance = wanted;
+  GlowingSurfaces surfaces = glowing_surfaces(*scene, *view.solved, run);
+  if (chosen_exitance(scene->scene.solver) == Exitance::gather) {
+    // The same seen from the surface alone.
+    GlowingSurfaces quick = surfaces;
+    for (auto& surface : quick)
+      if (surface) surface->inside.channels.clear();
+    shade(view.quick_look.emplace(), std::move(quick));
   }
-  shade(view.look);
+  shade(view.look, std::move(surfaces));
   view.prepared = std::move(scene);
 }
 
@@ -77,7 +41,8 @@ SolverSettings preview_of(const SolverSettings& settings, const PreviewSettings&
 std::shared_ptr<const SolvedView> solve_view(Scene scene, Quality quality, RunContext& run,
                                              FactorCache& factors) {
   const auto start = Clock::now();
-  refuse_darkness(scene);
+  if (!anything_shines(scene))
+    throw InputError("nothing shines, expected a light or an emission above 0");
   auto view = std::make_shared<SolvedView>();
   view->quality = quality;
   choose_for_picture(scene.solver);

@@ -35,7 +35,8 @@ struct BallOnFloor {
         std::vector<const Shape*>{&scene.objects[0].shape, &scene.objects[1].shape});
     SurfaceGrid grid(scene.objects[0].shape, 8);
     const Eigen::VectorXd U_d = Eigen::VectorXd::Constant(grid.nodes().cols(), 0.5);
-    const LeavingRadiance leaving(wax.medium(0), Boundary::marshak, Exitance::lambert);
+    const LeavingRadiance leaving(
+        wax.ior, diffusion_coefficients(wax.medium(0), Boundary::marshak).A, Exitance::lambert);
     surfaces.emplace_back(GlowingSurface(grid));
     surfaces.back()->U_d = {U_d};
     surfaces.back()->leaving = {leaving};
