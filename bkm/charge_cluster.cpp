@@ -5,17 +5,13 @@
 #include <cstdint>
 #include <numbers>
 
+#include "bkm/factorial.h"
+
 namespace knotlight {
 namespace {
 
 constexpr int P = cluster_degree;
 
-constexpr double factorial(int n) {
-  return n <= 1 ? 1.0 : n * factorial(n - 1);
-}
-constexpr double double_factorial(int n) {
-  return n <= 1 ? 1.0 : n * double_factorial(n - 2);
-}
 constexpr double binomial(int n, int k) {
   return factorial(n) / (factorial(k) * factorial(n - k));
 }

@@ -6,11 +6,11 @@
 #include <limits>
 #include <utility>
 
+#include "core/not_finite.h"
+
 namespace knotlight {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Steps of power iteration for the largest singular value: its error falls as the fourth power of
 // the ratio of the first two values with every step, and some per cent are enough.
 constexpr int power_steps = 12;

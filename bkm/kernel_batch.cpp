@@ -3,13 +3,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "bkm/factorial.h"
+#include "bkm/kernels.h"
+
 namespace knotlight {
 namespace {
 
-// Below x^2 = 1 series, above it closed forms: the same border, for the same reason, as in
-// kernels.cpp, and the same number of terms.
-constexpr double series_limit = 1.0;
-constexpr int series_terms = 9;
+// Below x^2 = 1 series, above it closed forms: the border of kernels.h, whose square it is too.
 
 // sinh(x)/x = sum y^k / (2k+1)!, y = x^2, by Horner's rule.
 Batch i0_series(const Batch& y) {
@@ -48,9 +48,7 @@ Batch bessel_quotient_series(const Batch& y, int m) {
   Batch sum = Batch::Ones(y.size());
   for (int k = upward_terms; k >= 1; --k)
     sum = 1.0 + sum * y * (1.0 / (2.0 * k * (2.0 * k + 2.0 * m + 1.0)));
-  double double_factorial = 1.0;
-  for (int j = 1; j <= m; ++j) double_factorial *= 2.0 * j + 1.0;
-  return sum * (1.0 / double_factorial);
+  return sum * (1.0 / double_factorial(2 * m + 1));
 }
 
 Batch bessel_quotient(const Batch& y, int m, double scale_exponent) {
@@ -67,10 +65,6 @@ Batch bessel_quotient(const Batch& y, int m, double scale_exponent) {
     h = above;
   }
   return (y < upward_limit).select(series, h);
-}
-
-double factorial(int n) {
-  return n < 2 ? 1.0 : n * factorial(n - 1);
 }
 
 // (s/2)^m / m!

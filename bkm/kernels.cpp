@@ -5,12 +5,6 @@
 namespace knotlight {
 namespace {
 
-// Below lambda r = 1 the closed form of i_1 loses digits to cancellation, (x cosh x - sinh x) /
-// x^2; from there on it loses less than one.
-constexpr double series_limit = 1.0;
-// Terms of sum_k x^(2k+1) (2k+2) / (2k+3)!: at x = 1 the first one left out is 1e-18 of the sum.
-constexpr int series_terms = 9;
-
 // Modified spherical Bessel function i_1(x) [V09 6.9, m = 1] for small x, where
 // x^(2k+3)/(2k+2)! - x^(2k+3)/(2k+3)! = x^(2k+3) (2k+2)/(2k+3)!.
 double i1_series(double x) {

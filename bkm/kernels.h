@@ -5,6 +5,12 @@
 
 namespace knotlight {
 
+// Below lambda r = 1 the closed form of i_1 loses digits to cancellation, (x cosh x - sinh x) /
+// x^2; from there on it loses less than one.
+inline constexpr double series_limit = 1.0;
+// Terms of sum_k x^(2k+1) (2k+2) / (2k+3)!: at x = 1 the first one left out is 1e-18 of the sum.
+inline constexpr int series_terms = 9;
+
 struct RadialValue {
   double value = 0.0;
   double derivative = 0.0;  // d/dr

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <utility>
+
+#include "core/not_finite.h"
 
 extern "C" {
 void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k,
@@ -34,7 +35,6 @@ int openblas_get_num_threads() __attribute__((weak));
 namespace knotlight::lapack {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Rows and columns of one piece of a product: large enough to run at full speed, several a thread.
 constexpr Eigen::Index piece_rows = 512, piece_columns = 256;
 

@@ -2,12 +2,12 @@
 
 #include <cassert>
 #include <cmath>
-#include <limits>
+
+#include "core/not_finite.h"
 
 namespace knotlight {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Values of mu looked at, evenly in log mu over up to 16 decades: 25 a decade, and mu need not be
 // known better than to some per cent.
 constexpr int steps = 400;
@@ -31,7 +31,7 @@ Eigen::ArrayXd filters(const DataSpectrum& data, double mu) {
 
 double gcv_regulariser(const DataSpectrum& data) {
   if (!usable(data)) return nan;
-  double best = nan, least = std::numeric_limits<double>::infinity();
+  double best = nan, least = infinity;
   for (int i = 0; i < steps; ++i) {
     const double mu = at_step(data, i);
     const Eigen::ArrayXd f = filters(data, mu);
@@ -52,7 +52,7 @@ double gcv_regulariser(const DataSpectrum& data) {
 // and only its turning is differenced.
 double l_curve_regulariser(const DataSpectrum& data) {
   if (!usable(data)) return nan;
-  double best = at_step(data, 0), sharpest = -std::numeric_limits<double>::infinity();
+  double best = at_step(data, 0), sharpest = -infinity;
   double before_angle = 0.0, before_x = 0.0, before_y = 0.0;
   for (int i = 0; i < steps; ++i) {
     const double mu = at_step(data, i);

@@ -55,7 +55,7 @@ LineMoments line_moments(RadialKernel kernel, double s) {
           s2 * s2 * (1.0 / 4.0 - s2 * (1.0 / 3.0 - s2 / 8.0))};
 }
 
-struct Ball {
+struct KernelBall {
   Vec3 center;
   double radius;
   RadialKernel kernel;
@@ -69,7 +69,7 @@ struct Ball {
 // hemisphere included. Each is followed from its end behind the centre, so that a surface through
 // the centre is a crossing like any other and rounding of the centre off it does not matter.
 template <std::size_t N>
-KernelMoments sum_over(const std::array<Vec3, N>& lines, const Frame& frame, const Ball& ball,
+KernelMoments sum_over(const std::array<Vec3, N>& lines, const Frame& frame, const KernelBall& ball,
                        const RayCaster& caster, std::uint32_t object) {
   const double r = ball.radius;
   KernelMoments sum;
@@ -107,7 +107,7 @@ double kernel_value(RadialKernel kernel, double s_squared) {
 KernelMoments kernel_moments_inside(const Vec3& x, double r, RadialKernel kernel,
                                     const RayCaster& caster, std::uint32_t object) {
   const SurfacePoint surface = caster.nearest_surface_point(x, object);
-  Ball ball{x, r, kernel};
+  KernelBall ball{x, r, kernel};
   if ((surface.position - x).norm() >= r) return {ball.whole_mass(), Vec3::Zero()};
   const double offset = std::max(offset_in_radii * r, offset_in_skips * caster.skip_distance());
   ball.center += offset * Vec3(0.6137, -0.7310, 0.2983);  // unit to 4 digits

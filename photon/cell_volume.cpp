@@ -16,7 +16,7 @@ using std::numbers::pi;
 // Each triangle adds the integral of that over its projection, whose signed area knows the sign.
 
 // Below this share of a cell a volume may be rounding alone.
-constexpr double least_share = 1e-12;
+constexpr double least_cell_share = 1e-12;
 
 using Polygon = std::vector<Vec3>;
 
@@ -162,7 +162,7 @@ std::vector<double> volumes_inside(const Shape& shape, const FluxGrid& grid) {
   } else {
     volumes = inside_mesh(std::get<TriangleMesh>(shape), grid);
   }
-  const double least = least_share * grid.cell_size().prod();
+  const double least = least_cell_share * grid.cell_size().prod();
   for (double& v : volumes)
     if (v < least) v = 0.0;
   return volumes;

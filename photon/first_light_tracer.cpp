@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/fresnel.h"
+#include "core/not_finite.h"
 #include "photon/depth_rule.h"
 #include "photon/emission.h"
 #include "photon/low_discrepancy.h"
@@ -18,9 +18,7 @@ constexpr std::size_t rays_per_chunk = 4096;  // milliseconds of work
 
 // A branch with less than this share of its ray's power is played for: the sum of what is dropped
 // and raised is zero in the mean, and its share of the variance is the square of this.
-constexpr double least_share = 1e-3;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least_branch_share = 1e-3;
 
 // Branches in a slab between mirrors decay by the Fresnel reflectance or the roulette; so many
 // means that rounding has caught the light in an edge.
@@ -53,7 +51,7 @@ class RayFollower {
 
   // offset: of the stratified depths, in [0, 1). Adds to the deposit.
   void follow(const LightRay& start, double power, double offset, Rng& rng, Deposit& deposit) {
-    least_power_ = least_share * power;
+    least_power_ = least_branch_share * power;
     offset_ = offset;
     branches_.assign(1, {start, power});
     for (int events = 0; !branches_.empty() && events < most_events; ++events) {
@@ -87,7 +85,7 @@ class RayFollower {
   // A medium from where the light is to where it leaves.
   void cross(const Branch& branch, Rng& rng, Deposit& deposit) {
     const Passage::Item& item = passage_.item(branch.object);
-    const auto hit = passage_.next_inside(branch, std::numeric_limits<double>::infinity());
+    const auto hit = passage_.next_inside(branch, infinity);
     if (!hit) return;  // the way out was missed: rounding
     const double length = std::max(0.0, (hit->position - branch.position).dot(branch.direction));
     const double tau = item.sigma_t * length;

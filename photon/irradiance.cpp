@@ -5,7 +5,7 @@
 namespace knotlight {
 namespace {
 
-constexpr std::size_t points_per_chunk = 256;  // about a millisecond of rays
+constexpr std::size_t irradiances_per_chunk = 256;  // about a millisecond of rays
 
 }  // namespace
 
@@ -19,7 +19,7 @@ Eigen::VectorXd entering_irradiances(const Scene& scene, const RayCaster& caster
                                      std::uint32_t object, const SurfaceSamples& at, int rays,
                                      std::uint64_t seed, const Workers& workers) {
   Eigen::VectorXd values(at.positions.cols());
-  workers.for_chunks(static_cast<std::size_t>(values.size()), points_per_chunk,
+  workers.for_chunks(static_cast<std::size_t>(values.size()), irradiances_per_chunk,
                      [&](std::size_t, std::size_t begin, std::size_t end) {
                        for (std::size_t i = begin; i < end; ++i) {
                          const auto column = static_cast<Eigen::Index>(i);
@@ -45,7 +45,7 @@ std::vector<IrradianceSample> sample_irradiances(const Scene& scene, const RayCa
   const double area = surface_area(shape) / static_cast<double>(points.size());
   std::vector<IrradianceSample> samples(points.size());
   workers.for_chunks(
-      points.size(), points_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+      points.size(), irradiances_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           Rng rng(point_seed, Stream::irradiance_rays, i);
           samples[i] = {points[i], area,

@@ -109,14 +109,14 @@ class NearestPhotons {
   std::vector<Entry> heap_;
 };
 
-struct Ball {
+struct Neighbourhood {
   double radius;
   std::vector<std::size_t> indices;  // of the photons closer than the radius
 };
 
-Ball photons_around(const Vec3& x, double max_radius, const EstimateOptions& options,
-                    const Tree& tree) {
-  Ball ball{max_radius, {}};
+Neighbourhood photons_around(const Vec3& x, double max_radius, const EstimateOptions& options,
+                             const Tree& tree) {
+  Neighbourhood ball{max_radius, {}};
   const bool all = options.estimator == DensityEstimator::radius;
   assert(all || options.nearest > 1);
   const std::size_t k = all ? std::numeric_limits<std::size_t>::max() : options.nearest;
@@ -187,7 +187,7 @@ ReducedIncident VolumePhotonMap::estimate(const Vec3& x, const EstimateOptions& 
   const Medium& medium = self.medium;
   const double sigma_t = medium.sigma_t();
   const bool undo = options.undo_attenuation && self.first_order_only;
-  const Ball ball = photons_around(x, options.max_radius / sigma_t, options, *self.tree);
+  const Neighbourhood ball = photons_around(x, options.max_radius / sigma_t, options, *self.tree);
   const RadialKernel kernel =
       options.estimator == DensityEstimator::kernel ? RadialKernel::smooth : RadialKernel::ball;
   const auto weight_of = [&](const VolumePhoton& p) {

@@ -8,7 +8,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::size_t points_per_chunk = 32;  // some milliseconds of work
+constexpr std::size_t terms_per_chunk = 32;  // some milliseconds of work
 
 // div Q_ri at x by central differences of the estimate as the thesis has it: with the attenuation
 // undone, a photon's weight would carry the known derivative into the difference.
@@ -64,7 +64,7 @@ SourceTerms source_terms(const Points& boundary_points, const Points& boundary_n
   SourceTerms terms{Eigen::VectorXd(total), Eigen::VectorXd(n), Eigen::VectorXd(total)};
   std::vector<double> errors(static_cast<std::size_t>(total));
   workers.for_chunks(
-      static_cast<std::size_t>(total), points_per_chunk,
+      static_cast<std::size_t>(total), terms_per_chunk,
       [&](std::size_t, std::size_t begin, std::size_t end) {
         for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
           const Vec3 x = i < n ? boundary_points.col(i) : interior_points.col(i - n);

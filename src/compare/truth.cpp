@@ -11,7 +11,7 @@ namespace knotlight {
 namespace {
 
 // Photons that tell how often one interacts on average; to 1-2 %, which is all that is wanted.
-constexpr std::size_t pilot_photons = 10'000;
+constexpr std::size_t truth_pilot_photons = 10'000;
 constexpr std::size_t fewest_photons = 100'000;   // else a tenth of them would fill no cell
 constexpr std::size_t most_photons = 20'000'000;  // where hardly any interact
 // Of a cell's edge: a line along the edges of cells passes their centres at 0.71.
@@ -22,7 +22,7 @@ constexpr double whole_cell = 1.0 - 1e-6;
 double interactions_per_photon(const PreparedScene& prepared, std::uint64_t seed,
                                const Workers& workers) {
   TracerOptions options;
-  options.photons = pilot_photons;
+  options.photons = truth_pilot_photons;
   options.seed = seed;
   options.orders = TracerOptions::Orders::all;
   options.store = false;

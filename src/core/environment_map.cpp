@@ -8,7 +8,7 @@
 namespace knotlight {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Below the horizon of this pixel row (0..height): the cosine of its polar angle.
 double row_edge_z(int row, int height) {

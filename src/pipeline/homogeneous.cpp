@@ -9,7 +9,7 @@ namespace knotlight {
 namespace {
 
 constexpr std::size_t check_points = 2048;  // the rms of a residual to 2 %, on smooth surfaces
-constexpr std::size_t points_per_chunk = 64;
+constexpr std::size_t fields_per_chunk = 64;
 
 // Charges are spread over balls whose bias is this share of the tolerance: 0.35 (radius sigma_t)^2
 // of U_d on spheres of 5 to 50 mean free paths (docs/results/boundary-methods.md), and 0.85 (radius
@@ -75,7 +75,7 @@ BoundaryVerdict judge_boundary(const ChannelProblem& p, const BoundaryChecks& ch
   for (std::size_t half = 0; half < 2; ++half) {
     u[half] = checks.particular.value[half];
     residual[half] = checks.data.g[half];
-    p.workers.for_chunks(static_cast<std::size_t>(n), points_per_chunk,
+    p.workers.for_chunks(static_cast<std::size_t>(n), fields_per_chunk,
                          [&](std::size_t, std::size_t begin, std::size_t end) {
                            for (auto i = static_cast<Eigen::Index>(begin);
                                 i < static_cast<Eigen::Index>(end); ++i) {

@@ -21,8 +21,8 @@ bool sky_alone(const Scene& scene) {
 }
 
 // Where boundary_flux was found as good as the photon map (docs/results/source-models.md).
-constexpr double least_albedo = 0.99;     // reduced
-constexpr double least_thickness = 10.0;  // 4V/S in transport mean free paths
+constexpr double least_albedo = 0.99;        // reduced
+constexpr double least_p1_thickness = 10.0;  // 4V/S in transport mean free paths
 
 bool diffuse_enough(const PreparedScene& prepared) {
   const Object& object = prepared.scene.objects[prepared.translucent[0]];
@@ -30,7 +30,7 @@ bool diffuse_enough(const PreparedScene& prepared) {
     const Medium medium = object.translucent()->medium(c);
     const Validity validity = diffusion_validity(object.shape, medium);
     if (medium.ior != 1.0 || validity.reduced_albedo < least_albedo ||
-        validity.thickness < least_thickness)
+        validity.thickness < least_p1_thickness)
       return false;
   }
   return true;

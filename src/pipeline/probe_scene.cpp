@@ -17,7 +17,7 @@ namespace knotlight {
 namespace {
 
 constexpr double surface_slack = 1e-3;  // of the object's size: fixed by the command's contract
-constexpr std::size_t points_per_chunk = 64;
+constexpr std::size_t probes_per_chunk = 64;
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\"");
@@ -136,7 +136,7 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
   {
     Stage stage(run.stages, "probe", points.size());
     run.workers.for_chunks(
-        points.size(), points_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+        points.size(), probes_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
             const Vec3& p = points[i];
             const auto place = locate(p, prepared);

@@ -9,7 +9,7 @@ namespace {
 
 // One-sided chance of a normal variable beyond so many: 2 %.
 constexpr double standard_errors = 2.0;
-constexpr std::size_t points_per_chunk = 16;
+constexpr std::size_t rows_per_chunk = 16;
 
 // e has the spectrum residual / (1 + k w), so its mean square is the double integral over the
 // surface of residual(x) residual(y) M(|x - y|), M of spectrum (1 + k w)^-2 (lambda, which makes e
@@ -66,7 +66,7 @@ double mean_square_effect(const Points& positions, const std::array<Eigen::Vecto
   };
   std::vector<Row> rows(static_cast<std::size_t>(n));
   workers.for_chunks(
-      rows.size(), points_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+      rows.size(), rows_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
           const auto i = static_cast<Eigen::Index>(row);
           for (Eigen::Index j = 0; j < n; ++j) {

@@ -37,7 +37,7 @@ struct RightHandSides {
   Eigen::VectorXd g() const { return 0.5 * (halves[0].g + halves[1].g); }
 };
 
-constexpr int rays_per_knot = 256;  // to lights of some extent: no neighbour evens out its noise
+constexpr int rays_per_sample = 256;  // to lights of some extent: no neighbour evens out its noise
 
 // The thesis's irradiance sampling: the light that enters at a knot becomes the value
 // exp(-sigma_t l) E / (4 pi) of an isotropic source at the knot l = 1/sigma_tr below it, and the
@@ -68,8 +68,8 @@ RightHandSides right_hand_sides(const PointSets& places, const VolumePhotonMap (
                          maps[half], p.medium, options, p.caster, p.object, p.workers);
     if (p.light.model == SourceModel::photon_map) continue;
     const Eigen::VectorXd light =
-        entering_irradiances(p.scene, p.caster, p.channel, p.object, places.surface, rays_per_knot,
-                             p.seed + half, p.workers);
+        entering_irradiances(p.scene, p.caster, p.channel, p.object, places.surface,
+                             rays_per_sample, p.seed + half, p.workers);
     if (p.light.model == SourceModel::boundary_flux)
       for (Eigen::Index i = 0; i < light.size(); ++i)
         terms.g[i] += p.coefficients.boundary_flux_data(light[i]);

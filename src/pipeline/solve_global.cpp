@@ -62,9 +62,9 @@ struct GlobalFactors {
   GlobalBkmSolver solver;
 };
 
-using SharedFactors = std::shared_ptr<const GlobalFactors>;
+using SharedGlobalFactors = std::shared_ptr<const GlobalFactors>;
 
-SharedFactors factor(const ChannelProblem& p, GlobalBasis basis, std::size_t count) {
+SharedGlobalFactors factor(const ChannelProblem& p, GlobalBasis basis, std::size_t count) {
   SpreadKnots knots = spread_surface_knots(p.shape, rows_per_knot * count, p.seed);
   const auto n = static_cast<Eigen::Index>(count);
   GlobalBkmProblem problem{p.coefficients.lambda, p.coefficients.k, knots.positions.leftCols(n),
@@ -79,13 +79,13 @@ SharedFactors factor(const ChannelProblem& p, GlobalBasis basis, std::size_t cou
 }
 
 // One number of knots tried.
-struct Round {
+struct GlobalRound {
   ChannelSolution solution;
   double residual;
 };
 
-Round solve_on(const GlobalFactors& factors, GlobalBasis basis, const BoundaryStart& start,
-               const ChannelProblem& p) {
+GlobalRound solve_on(const GlobalFactors& factors, GlobalBasis basis, const BoundaryStart& start,
+                     const ChannelProblem& p) {
   const GlobalBkmSolver& solver = factors.solver;
   const double k = p.coefficients.k;
   const SurfaceSamples at{factors.knots.positions, factors.knots.normals};
@@ -96,8 +96,8 @@ Round solve_on(const GlobalFactors& factors, GlobalBasis basis, const BoundarySt
       judge_boundary(p, start.checks, {part(halves[0], k), part(halves[1], k)});
   const GlobalField mean(basis, p.coefficients.lambda, solver.problem().centers,
                          0.5 * (halves[0].coefficients() + halves[1].coefficients()));
-  Round round{boundary_solution(p, start.particular, verdict, part(mean, k)),
-              verdict.robin_residual};
+  GlobalRound round{boundary_solution(p, start.particular, verdict, part(mean, k)),
+                    verdict.robin_residual};
   round.solution.method = method_of(basis);
   round.solution.figures.insert(
       round.solution.figures.end(),
@@ -119,16 +119,16 @@ ChannelSolution solve_by_global(const ChannelProblem& p, const BoundaryStart& st
   const double wanted = residual_wanted(p);
   const FactorCache::Key key = p.factor_key(method_of(basis));
   const auto kept = p.factors.find<KeptFactors<GlobalFactors>>(key);
-  SharedFactors factors =
+  SharedGlobalFactors factors =
       kept ? kept->factors : factor(p, basis, p.settings.knots.value_or(first_knots));
 
-  Round best = solve_on(*factors, basis, start, p);
+  GlobalRound best = solve_on(*factors, basis, start, p);
   if (kept && kept->serve(best.residual, wanted)) return best.solution;
   double before = best.residual;
-  SharedFactors best_factors = factors;
+  SharedGlobalFactors best_factors = factors;
   while (before > wanted && 2 * factors->count <= most) {
     factors = factor(p, basis, 2 * factors->count);
-    Round next = solve_on(*factors, basis, start, p);
+    GlobalRound next = solve_on(*factors, basis, start, p);
     const bool worthwhile = next.residual < worth_doubling * before;
     before = next.residual;
     if (next.residual < best.residual) {

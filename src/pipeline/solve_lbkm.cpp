@@ -48,19 +48,19 @@ struct LocalFactors {
   std::shared_ptr<const PatchTree> tree;
   LocalBkmSolver solver;
 };
-using SharedFactors = std::shared_ptr<const LocalFactors>;
+using SharedLocalFactors = std::shared_ptr<const LocalFactors>;
 
 // On a tree as it is split, without patches yet.
-SharedFactors factor(std::shared_ptr<const SpreadKnots> knots,
-                     const std::shared_ptr<PatchTree>& tree, const BodyQueries& body,
-                     const ChannelProblem& p) {
+SharedLocalFactors factor(std::shared_ptr<const SpreadKnots> knots,
+                          const std::shared_ptr<PatchTree>& tree, const BodyQueries& body,
+                          const ChannelProblem& p) {
   tree->make_patches(body, p.workers);
   return std::make_shared<const LocalFactors>(LocalFactors{
       std::move(knots), tree,
       LocalBkmSolver(tree, body, p.coefficients.lambda, p.coefficients.k, {}, p.workers)});
 }
 
-SharedFactors first_factors(const BodyQueries& body, const ChannelProblem& p) {
+SharedLocalFactors first_factors(const BodyQueries& body, const ChannelProblem& p) {
   auto knots =
       std::make_shared<const SpreadKnots>(spread_surface_knots(p.shape, knot_choices, p.seed));
   return factor(knots, std::make_shared<PatchTree>(knots, first_patches(p)), body, p);
@@ -146,14 +146,14 @@ double jumps_at_surface(const PatchTree& tree, const LocalMisfit& misfit) {
 }
 
 // One set of patches tried.
-struct Round {
+struct LocalRound {
   ChannelSolution solution;
   LocalMisfit misfit;
   double residual;
 };
 
-Round solve_on(const LocalFactors& factors, KnotData& data, const BodyQueries& body,
-               const BoundaryStart& start, const ChannelProblem& p) {
+LocalRound solve_on(const LocalFactors& factors, KnotData& data, const BodyQueries& body,
+                    const BoundaryStart& start, const ChannelProblem& p) {
   const PatchTree& tree = *factors.tree;
   const LocalBkmSolver& solver = factors.solver;
   const double k = p.coefficients.k;
@@ -166,9 +166,9 @@ Round solve_on(const LocalFactors& factors, KnotData& data, const BodyQueries& b
       {part(solver.field(halves[0], body), k), part(solver.field(halves[1], body), k)});
   LocalSolution mean = halves[0];
   mean.beta = 0.5 * (halves[0].beta + halves[1].beta);
-  Round round{boundary_solution(p, start.particular, verdict, part(solver.field(mean, body), k)),
-              solver.misfit(halves[0], data.g[0], halves[1], data.g[1], p.workers),
-              verdict.robin_residual};
+  LocalRound round{
+      boundary_solution(p, start.particular, verdict, part(solver.field(mean, body), k)),
+      solver.misfit(halves[0], data.g[0], halves[1], data.g[1], p.workers), verdict.robin_residual};
   const double jumps = relative(jumps_at_surface(tree, round.misfit), verdict.scale);
   round.solution.numerical_error += jumps;
   round.solution.method = Method::lbkm;
@@ -191,13 +191,13 @@ ChannelSolution solve_by_lbkm(const ChannelProblem& p, const BoundaryStart& star
   const BodyQueries body = body_queries(p);
   const FactorCache::Key key = p.factor_key(Method::lbkm);
   const auto kept = p.factors.find<KeptFactors<LocalFactors>>(key);
-  SharedFactors factors = kept ? kept->factors : first_factors(body, p);
+  SharedLocalFactors factors = kept ? kept->factors : first_factors(body, p);
   KnotData data(p, *start.particular, *factors->knots);
   const double wanted = residual_wanted(p);
 
-  Round best = solve_on(*factors, data, body, start, p);
+  LocalRound best = solve_on(*factors, data, body, start, p);
   if (kept && kept->serve(best.residual, wanted)) return best.solution;
-  SharedFactors best_factors = factors;
+  SharedLocalFactors best_factors = factors;
   std::vector<double> residuals{best.residual};
   LocalMisfit misfit = best.misfit;
   for (int round = 2; round <= most_rounds && residuals.back() > wanted; ++round) {
@@ -208,7 +208,7 @@ ChannelSolution solve_by_lbkm(const ChannelProblem& p, const BoundaryStart& star
     auto finer = std::make_shared<PatchTree>(tree);
     for (const std::size_t leaf : leaves) finer->split(leaf);
     factors = factor(factors->knots, finer, body, p);
-    Round next = solve_on(*factors, data, body, start, p);
+    LocalRound next = solve_on(*factors, data, body, start, p);
     misfit = next.misfit;
     residuals.push_back(next.residual);
     if (next.residual < best.residual) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "core/fresnel.h"
 #include "core/microfacet.h"
+#include "core/not_finite.h"
 #include "core/phase_function.h"
 #include "core/sampling.h"
 #include "trace/surroundings.h"
@@ -16,7 +16,6 @@ namespace knotlight {
 namespace {
 
 using std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Paths below this part of their full weight are played for: those that survive get this weight.
 constexpr double roulette_weight = 0.25;

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/fresnel.h"
+#include "core/not_finite.h"
 
 namespace knotlight {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr std::uint32_t facets_per_leaf = 4;
 constexpr std::size_t most_planes = 16;  // tried one by one, a tree of facets costs about as much

@@ -20,7 +20,6 @@ using std::numbers::pi;
 // Places per ray at which the diffusion solution is looked up: it is smooth, and the rays of one
 // pixel place them differently.
 constexpr int lookups = 4;
-constexpr double invisible = 1e-5;  // share of light that need not be followed further
 // Internal reflections along one path; a refracting object of index 1.5 reflects all light beyond
 // its critical angle, and only absorption ends that.
 constexpr int most_reflections = 64;

@@ -31,6 +31,8 @@
 
 namespace knotlight {
 
+inline constexpr double invisible = 1e-5;  // share of light that need not be followed further
+
 // One object's solution, where it can be looked up anywhere inside.
 struct InsideField {
   struct Channel {

@@ -14,7 +14,6 @@
 namespace knotlight {
 namespace {
 
-constexpr double invisible = 1e-5;  // of the light behind an object
 // Rays to the lights per camera ray where the light that enters has to come off U (boundary_flux).
 constexpr int entering_samples = 16;
 constexpr int most_bounces = 4;        // R^4 < 1e-5 away from grazing angles

@@ -46,7 +46,6 @@ constexpr std::array<Choice<DistancePrecision>, 2> precisions{{
 
 // Radial functions a millionth or a million knot spacings wide are a slip, not a choice.
 constexpr Range knot_spacings{1e-6, 1e6};
-constexpr Range between_0_and_1{0.0, 1.0, true, true};
 // Beyond, (1 + r^2)^(b/2) over a body of some widths leaves no digits.
 constexpr Range exponents{0.0, 20.0, true, false};
 constexpr std::size_t highest_order = 4;  // the kernels go no further (bkm/kernel_batch.h)

@@ -51,7 +51,6 @@ constexpr std::array<Choice<DensityEstimator>, 3> estimators{{
     {"kernel", DensityEstimator::kernel},
 }};
 
-constexpr Range between_0_and_1{0.0, 1.0, true, true};
 // A ball of a thousand mean free paths averages over any object.
 constexpr Range estimate_radii{1e-6, 1e3};
 constexpr std::size_t max_photons = 500'000'000;            // 32 GB of them

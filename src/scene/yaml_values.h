@@ -19,6 +19,7 @@ struct Range {
   bool open_min = false;
   bool open_max = false;
 };
+inline constexpr Range between_0_and_1{0.0, 1.0, true, true};
 
 [[noreturn]] void fail(const YamlNode& node, const std::string& what);
 

@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
+#include "core/not_finite.h"
 #include "report/chart.h"
 #include "stability/heat_map.h"
 
 namespace knotlight {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 using Selection = std::function<bool(const Trial&)>;
 using Number = std::function<double(const Trial&)>;
@@ -50,7 +48,7 @@ HeatMap map_of(const std::vector<Trial>& trials, const Selection& wanted, const 
   const auto xs = distinct<double>(trials, wanted, value_of);
   const auto ys = distinct<double>(trials, wanted, y_of);
   HeatMap map{title, "", y_label, names(xs), names(ys), {}};
-  map.values.assign(xs.size() * ys.size(), none);
+  map.values.assign(xs.size() * ys.size(), nan);
   for (const Trial& t : trials) {
     if (!wanted(t)) continue;
     map.x_label = t.parameter;
@@ -156,7 +154,7 @@ class Figures {
           heat_maps_svg(maps, maps.size(), scale), fmt::format("{}, {}.", body, scale.label));
     };
     one("rank", {1.0, 1000.0, "rank"},
-        [](const Trial& t) { return t.method == "grid" ? none : t.outcome.rank; });
+        [](const Trial& t) { return t.method == "grid" ? nan : t.outcome.rank; });
     one("condition", {1.0, 1e16, "condition"}, [](const Trial& t) { return t.outcome.condition; });
     one("coefficients",
         {1.0, 1e12,
@@ -281,7 +279,7 @@ class Figures {
         all.x.push_back(t.method == "bkm_thesis" ? "thesis" : t.method);
       if (all.y.empty() || all.y.back() != t.scene) all.y.push_back(t.scene);
       all.values.push_back(t.error);
-      trusted.values.push_back(t.exit_code == 0 ? t.error : none);
+      trusted.values.push_back(t.exit_code == 0 ? t.error : nan);
     }
     all.x.resize(all.values.size() / all.y.size());
     trusted.x = all.x;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "bkm/assembly.h"
@@ -12,13 +11,13 @@
 #include "bkm/knots.h"
 #include "bkm/local_solver.h"
 #include "bkm/thesis_solver.h"
+#include "core/not_finite.h"
 #include "core/rng.h"
 #include "grid/solver.h"
 
 namespace knotlight {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t check_count = 400;  // apart by an eighth of the radius
 // What the program's bkm and mfs drop too.
 constexpr double pivot_cut = 1e-12;
@@ -48,7 +47,7 @@ struct Checks {
 
 // Eigen's own maximum may pass over not-a-number.
 double largest(const Eigen::VectorXd& v) {
-  return v.hasNaN() ? none : v.lpNorm<Eigen::Infinity>();
+  return v.hasNaN() ? nan : v.lpNorm<Eigen::Infinity>();
 }
 
 Eigen::VectorXd values_at(const Points& x, const std::function<double(const Vec3&)>& u) {
@@ -79,7 +78,7 @@ Eigen::VectorXd robin_data(const BoundaryCase& c, const ExactField& field, doubl
 // What a method finds for the data of a field: the field, and the sum of sizes of its parts.
 struct Found {
   std::function<double(const Vec3&)> value, size;
-  double iterations = none;
+  double iterations = nan;
 };
 
 // Fills in the figures of solutions; those of the system are the same for all.
@@ -94,7 +93,7 @@ std::vector<Outcome> outcomes(const BoundaryCase& c, const Outcome& system, cons
       Outcome outcome = system;
       outcome.error = largest(values_at(checks.positions, found.value) - exact) / largest(exact);
       outcome.coefficient_size =
-          found.size ? largest(values_at(checks.positions, found.size)) / largest(exact) : none;
+          found.size ? largest(values_at(checks.positions, found.size)) / largest(exact) : nan;
       outcome.iterations = found.iterations;
       results.push_back(outcome);
     }
@@ -108,15 +107,15 @@ std::vector<Outcome> try_global(const BoundaryCase& c, GlobalBasis basis, const 
   const GlobalBkmSolver solver({c.lambda, c.k, centers, knots.positions, knots.normals}, basis,
                                pivot_cut, alone);
   const auto unknowns = static_cast<double>(centers.cols());
-  const Outcome system{none, unknowns, static_cast<double>(solver.rank()), solver.condition(),
-                       none, none};
+  const Outcome system{nan, unknowns, static_cast<double>(solver.rank()), solver.condition(),
+                       nan, nan};
   return outcomes(c, system, [&](const ExactField& field, double noise) {
     const GlobalField found =
         solver.solve(robin_data(c, field, noise, knots.positions, knots.normals));
     // All basis functions are positive.
     const GlobalField sizes(basis, c.lambda, centers, found.coefficients().cwiseAbs());
     return Found{[found](const Vec3& x) { return found.value(x); },
-                 [sizes](const Vec3& x) { return sizes.value(x); }, none};
+                 [sizes](const Vec3& x) { return sizes.value(x); }, nan};
   });
 }
 
@@ -136,12 +135,9 @@ std::vector<Outcome> try_thesis(const BoundaryCase& c, std::size_t count, DenseM
   wave.R = 2.0 * c.body->half_extent;
   const DenseSolver solver(robin_matrix(knots.positions, knots.normals, knots.positions, c.k, wave),
                            {method, cut, alone});
-  const Outcome system{none,
-                       static_cast<double>(count),
-                       static_cast<double>(solver.rank()),
-                       solver.condition(),
-                       none,
-                       none};
+  const Outcome system{
+      nan, static_cast<double>(count), static_cast<double>(solver.rank()), solver.condition(), nan,
+      nan};
   BkmBasis basis;
   basis.centers = PointColumns(0, 3);
   basis.knots = point_columns(knots.positions);
@@ -151,7 +147,7 @@ std::vector<Outcome> try_thesis(const BoundaryCase& c, std::size_t count, DenseM
         solver.solve(robin_data(c, field, noise, knots.positions, knots.normals));
     const BkmField found(basis, {}, beta), sizes(basis, {}, beta.cwiseAbs());
     return Found{[found](const Vec3& x) { return found.value(x); },
-                 [sizes](const Vec3& x) { return sizes.value(x); }, none};
+                 [sizes](const Vec3& x) { return sizes.value(x); }, nan};
   });
 }
 
@@ -183,7 +179,7 @@ std::vector<Outcome> try_lbkm(const BoundaryCase& c, double width, int degree) {
   LocalBkmOptions options;
   options.degree = degree;
   const LocalBkmSolver solver(tree, body, c.lambda, c.k, options, alone);
-  const Outcome system{none, static_cast<double>(solver.unknowns()), none, none, none, none};
+  const Outcome system{nan, static_cast<double>(solver.unknowns()), nan, nan, nan, nan};
   return outcomes(c, system, [&](const ExactField& field, double noise) {
     const LocalSolution solution =
         solver.solve(robin_data(c, field, noise, knots->positions, knots->normals), alone);
@@ -203,7 +199,7 @@ std::vector<Outcome> try_grid(const BoundaryCase& c, double h) {
   const Eigen::VectorXd areas = Eigen::VectorXd::Constant(
       points.positions.cols(), c.body->area / static_cast<double>(points.positions.cols()));
   const double unknowns = geometry->finest().dofs;
-  const Outcome system{none, unknowns, unknowns, none, none, none};  // positive definite
+  const Outcome system{nan, unknowns, unknowns, nan, nan, nan};  // positive definite
   const Checks checks(c);
   std::vector<Outcome> results;
   for (const ExactField& field : c.fields) {
@@ -238,18 +234,18 @@ std::vector<Outcome> try_dual_reciprocity(const BoundaryCase& c, double s, std::
   options.c = width * mean_knot_spacing(c.body->area, count);
   const BkmThesisSolver solver(problem, options);
   const Points all = all_points(problem);
-  const Outcome system{none,
+  const Outcome system{nan,
                        static_cast<double>(all.cols()),
                        static_cast<double>(solver.particular_rank()),
                        solver.particular_condition(),
-                       none,
-                       none};
+                       nan,
+                       nan};
   return outcomes(c, system, [&](const ExactField& field, double noise) {
     const Eigen::VectorXd f = (s * s - c.lambda * c.lambda) * values_at(all, field.value);
     const BkmField found =
         solver.solve(with_noise(f, noise, c.seed + 1),
                      robin_data(c, field, noise, knots.positions, knots.normals));
-    return Found{[found](const Vec3& x) { return found.value(x); }, nullptr, none};
+    return Found{[found](const Vec3& x) { return found.value(x); }, nullptr, nan};
   });
 }
 

@@ -15,18 +15,18 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double half_width = 2.0;    // thicknesses; light in a beam does not spread
-constexpr double central_part = 1.5;  // points stay clear of the edges, whose balls are cut
-constexpr int points_per_depth = 200;
+constexpr double slab_half_width = 2.0;  // thicknesses; light in a beam does not spread
+constexpr double central_part = 1.5;     // points stay clear of the edges, whose balls are cut
+constexpr int estimates_per_depth = 200;
 // 200 photons scatter by 7 %, their mean over 200 points by 0.5 %, were the photons independent.
 // Low-discrepancy rays lie in layers that all points of one depth see alike: up to 2.5 % from seed
 // to seed. A wrong factor is off by 20 % or more.
 constexpr double allowed = 0.05;
 
 Points points_at(double z) {
-  Points points(3, points_per_depth);
-  for (int i = 0; i < points_per_depth; ++i) {
-    const double r = central_part * std::sqrt((i + 0.5) / points_per_depth);
+  Points points(3, estimates_per_depth);
+  for (int i = 0; i < estimates_per_depth; ++i) {
+    const double r = central_part * std::sqrt((i + 0.5) / estimates_per_depth);
     const double phi = i * pi * (3.0 - std::sqrt(5.0));
     points.col(i) = Vec3(r * std::cos(phi), r * std::sin(phi), z);
   }
@@ -37,8 +37,9 @@ Points points_at(double z) {
 
 void run_source_terms(const Medium& medium, std::size_t photons, const CaseRun& run,
                       ValidatedCase& result) {
-  Scene scene = scene_of(box_mesh({-half_width, -half_width, 0.0}, {half_width, half_width, 1.0}),
-                         medium, {DirectionalLight{Vec3::UnitZ(), Spectrum::Ones()}});
+  Scene scene = scene_of(
+      box_mesh({-slab_half_width, -slab_half_width, 0.0}, {slab_half_width, slab_half_width, 1.0}),
+      medium, {DirectionalLight{Vec3::UnitZ(), Spectrum::Ones()}});
   scene.solver.photons = photons;
   const PreparedScene prepared = prepare_scene(std::move(scene));
   const Workers workers(1);

@@ -5,11 +5,11 @@
 
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "child.h"
 #include "core/errors.h"
+#include "core/not_finite.h"
 #include "pipeline/scene_setup.h"
 #include "pipeline/solve_scene.h"
 #include "report/csv.h"
@@ -19,7 +19,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int trusted = 0, failed = 1, refused = 2, untrusted = 3;  // the command line's exit codes
 
 // Reasons start with the name of what was taken.

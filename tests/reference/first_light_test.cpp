@@ -6,13 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/not_finite.h"
+
 namespace knotlight {
 namespace {
 
 using std::numbers::pi;
 
 constexpr double rounding = 1e-14;  // relative; a dozen operations
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(FirstLight, PathsOfASphere) {
   const PathLength path = path_in_sphere(Vec3(1, 2, 3), 2.0);

@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <limits>
 #include <stdexcept>
+
+#include "core/not_finite.h"
 
 namespace knotlight {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+
+#include "core/not_finite.h"
 
 namespace knotlight {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double luminance(const Spectrum& c) {
   return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];

@@ -2,18 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <stdexcept>
+
+#include "core/not_finite.h"
 
 namespace knotlight {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = infinity;
 
 TEST(HeatMap, ShowsEveryNumberShortly) {
   const HeatMap map{"a < b",         "x",        "y",
-                    {"1", "2", "3"}, {"p", "q"}, {1.23e-5, 0.123, none, infinite, 4.4e12, 120.0}};
+                    {"1", "2", "3"}, {"p", "q"}, {1.23e-5, 0.123, nan, infinite, 4.4e12, 120.0}};
   const std::string svg = heat_maps_svg({map}, 1, {1e-6, 1.0, "error"});
   for (const char* text : {">1e-5<", ">0.12<", "><", ">∞<", ">4e12<", ">120<", "a &lt; b"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+
+#include "core/not_finite.h"
 
 namespace knotlight {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 const ViewLayer& layer_named(const std::string& name) {
   for (const ViewLayer& layer : view_layers())
