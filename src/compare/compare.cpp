@@ -136,6 +136,17 @@ void write_tables(const Comparison& c, const std::filesystem::path& folder) {
   write_text_file((folder / "budgets.csv").string(), budgets_csv(c));
 }
 
+// Fields are compared as P1 has them. Gathered pictures of refracting objects need photons inside
+// them, which most models do not have.
+void choose_for_comparison(Scene& scene) {
+  scene.solver.diffusion = Diffusion::p1;
+  const bool refracts =
+      std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
+        return object.translucent() != nullptr && object.translucent()->ior != 1.0;
+      });
+  if (!scene.solver.exitance && refracts) scene.solver.exitance = Exitance::p1;
+}
+
 }  // namespace
 
 Comparison compare_models(const std::string& path, const CompareOptions& options, RunContext& run,
@@ -144,6 +155,7 @@ Comparison compare_models(const std::string& path, const CompareOptions& options
   if (prepared.translucent.empty())
     throw InputError(path + ": objects: none is translucent, expected one to compare models on");
   shrink(prepared.scene.camera);
+  choose_for_comparison(prepared.scene);
   scene_out = prepared.scene;
   const SeenSurface seen = see_surface(prepared);
   const std::size_t object = seen.most_seen();

@@ -12,6 +12,7 @@
 
 #include "core/errors.h"
 #include "core/per_channel.h"
+#include "pipeline/glow.h"
 #include "pipeline/unscattered_light.h"
 #include "scene/nearest_name.h"
 #include "trace/camera_rays.h"
@@ -125,26 +126,11 @@ Spectrum VisiblePlace::entered() const {
                          material_->ior);
 }
 
-// The solution on the surface; beyond P1 completed as gather completes it (render/gather.h).
 Spectrum VisiblePlace::U_d() {
   if (material_ == nullptr) return Spectrum::Zero();
-  const GlowingSurface& surface = *view_.surfaces[hit_.object];
-  const Gather* gather = view_.shading.gather(hit_.object);
-  bool transient = false;
-  Spectrum U = per_channel([&](int c) {
-    const auto channel = static_cast<std::size_t>(c);
-    const double value = surface.grid.interpolate(surface.U_d[channel], hit_);
-    if (gather == nullptr || !surface.inside.channels[channel].beyond_p1) return value;
-    transient = true;
-    return value * gather->surface_weight(c, hit_);
-  });
-  if (transient) {
-    Rng own = rng(Use::transient);
-    Spectrum sum = Spectrum::Zero();
-    for (int i = 0; i < samples(); ++i) sum += gather->transient(hit_.position, own);
-    U += sum / samples();
-  }
-  if (surface.inside.counts_entering_light) return U - light().U_ri;
+  Rng own = rng(Use::transient);
+  const Spectrum U = view_.shading.solution_at(hit_, samples(), own);
+  if (view_.surfaces[hit_.object]->inside.counts_entering_light) return U - light().U_ri;
   // All light is the same in both media, what of it is not yet scattered is not.
   return view_.similar ? Spectrum(U + unscattered(view_.similar->scene).U_ri - light().U_ri) : U;
 }
@@ -195,7 +181,8 @@ struct LayerKind {
   Form form;
   const char* meaning;  // {0}: the unit of length
   double nowhere;       // where no object is met
-  Spectrum (*value)(VisiblePlace& place);
+  Spectrum (*value)(VisiblePlace& place) = nullptr;
+  Image PictureParts::*part = nullptr;  // in place of value: comes with the picture itself
 };
 
 using Form = LayerKind::Form;
@@ -215,6 +202,13 @@ const std::vector<LayerKind> kinds = {
     {"error_estimate", Form::colour,
      "rms error of U_d over its rms on the object's surface: one number per object", 0.0,
      [](VisiblePlace& p) { return p.error_estimate(); }},
+    {"single", Form::colour,
+     "light of the picture that the object seen has scattered once, W/({0}^2 sr)", 0.0, nullptr,
+     &PictureParts::once},
+    {"multiple", Form::colour,
+     "light of the picture that the object seen has scattered more than once, or emitted, "
+     "W/({0}^2 sr)",
+     0.0, nullptr, &PictureParts::more},
     {"depth", Form::number, "distance from the eye, {0}", infinite,
      [](VisiblePlace& p) -> Spectrum { return Spectrum::Constant(p.hit().t); }},
     {"position", Form::vector, "place on the surface, {0}", 0.0,
@@ -239,6 +233,15 @@ std::string residual_unknown(const PreparedScene& prepared, const SolvedScene& s
         return fmt::format("object '{}' was {} by {}, expected a solution by grid",
                            prepared.scene.objects[prepared.translucent[i]].name,
                            channel.solved ? "solved" : "not solved", channel.report.method);
+  return "";
+}
+
+// Why the picture does not tell light scattered once from other light; empty if it does.
+std::string parts_unknown(const PreparedScene& prepared, const SolvedScene& solved) {
+  if (chosen_exitance(prepared.scene.solver) != Exitance::gather)
+    return "expected solver.exitance gather";
+  if (solved.plan.source == SourceModel::boundary_flux)
+    return "boundary_flux solves for all light together, expected another solver.source";
   return "";
 }
 
@@ -280,7 +283,7 @@ bool holds_layers(const std::string& path) {
 
 PictureLayers picture_layers(const std::vector<std::string>& names, const PreparedScene& prepared,
                              const SolvedScene& solved, const GlowingSurfaces& surfaces,
-                             const Shading& shading, RunContext& run) {
+                             const Shading& shading, const PictureParts& parts, RunContext& run) {
   const Camera& camera = prepared.scene.camera;
   const auto width = static_cast<std::size_t>(camera.width_px);
   const auto height = static_cast<std::size_t>(camera.height_px);
@@ -288,17 +291,18 @@ PictureLayers picture_layers(const std::vector<std::string>& names, const Prepar
   std::vector<const LayerKind*> wanted;
   for (const LayerKind& kind : kinds) {
     if (std::find(names.begin(), names.end(), kind.name) == names.end()) continue;
-    if (kind.name == std::string("robin_residual"))
-      if (const std::string reason = residual_unknown(prepared, solved); !reason.empty()) {
-        result.warnings.push_back("layer robin_residual is left out: " + reason);
-        continue;
-      }
+    std::string unknown;
+    if (kind.part != nullptr) unknown = parts_unknown(prepared, solved);
+    if (kind.name == std::string("robin_residual")) unknown = residual_unknown(prepared, solved);
+    if (!unknown.empty()) {
+      result.warnings.push_back(fmt::format("layer {} is left out: {}", kind.name, unknown));
+      continue;
+    }
     wanted.push_back(&kind);
     result.metadata.emplace_back(std::string("knotlight:layer:") + kind.name,
                                  fmt::format(fmt::runtime(kind.meaning), prepared.scene.units));
     for (const std::string& channel : components(kind))
-      result.channels.push_back(
-          {channel, std::vector<float>(width * height, static_cast<float>(kind.nowhere))});
+      result.channels.push_back({channel, std::vector<float>(width * height)});
   }
   const View view = make_view(prepared, solved, surfaces, shading, run.options.seed);
   const CameraRays rays(camera);
@@ -307,12 +311,16 @@ PictureLayers picture_layers(const std::vector<std::string>& names, const Prepar
     for (std::size_t x = 0; x < width; ++x) {
       const auto hit = prepared.caster->nearest(
           rays.ray(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5));
-      if (!hit) continue;
       const std::size_t pixel = y * width + x;
-      VisiblePlace place(view, *hit, pixel);
+      std::optional<VisiblePlace> place;
+      if (hit) place.emplace(view, *hit, pixel);
       std::size_t channel = 0;
       for (const LayerKind* kind : wanted) {
-        const Spectrum value = kind->value(place);
+        Spectrum value = Spectrum::Constant(kind->nowhere);
+        if (kind->part != nullptr)
+          value = (parts.*kind->part).pixels[pixel];
+        else if (place)
+          value = kind->value(*place);
         const std::size_t count = components(*kind).size();
         for (std::size_t i = 0; i < count; ++i)
           result.channels[channel++].values[pixel] = static_cast<float>(value[static_cast<int>(i)]);

@@ -9,6 +9,7 @@
 #include "pipeline/run_options.h"
 #include "pipeline/scene_setup.h"
 #include "pipeline/solve_scene.h"
+#include "render/picture.h"
 #include "render/shading.h"
 
 namespace knotlight {
@@ -27,10 +28,11 @@ struct PictureLayers {
 };
 
 // The layers of these names (chosen_layers), one sample per pixel, at its centre. surfaces: those
-// of the solution. Same bits for any number of workers and whatever other layers are asked for.
+// of the solution; parts: those of the picture, which become layers as they are. Same bits for any
+// number of workers and whatever other layers are asked for.
 PictureLayers picture_layers(const std::vector<std::string>& names, const PreparedScene& prepared,
                              const SolvedScene& solved, const GlowingSurfaces& surfaces,
-                             const Shading& shading, RunContext& run);
+                             const Shading& shading, const PictureParts& parts, RunContext& run);
 
 // The picture as channels R, G, B followed by the layers, to an .exr file. Throws like write_layers
 // and for pixels that are not finite.

@@ -126,7 +126,9 @@ std::optional<Place> locate(const Vec3& p, const PreparedScene& prepared) {
 Report probe_scene(const std::string& path, const std::string& points_csv,
                    const std::string& output_csv, RunContext& run, Scene& scene_out) {
   const std::vector<Vec3> points = read_points(points_csv);
-  const PreparedScene prepared = prepare_scene(path, run);
+  PreparedScene prepared = prepare_scene(path, run);
+  // Beyond P1 the solution is only a part of U_d, which pictures complete while they gather.
+  prepared.scene.solver.diffusion.reset();
   SolvedScene solved = solve_scene(prepared, run, true);
   const auto maps = first_light_maps(prepared, solved, run);
   if (solved.plan.source != SourceModel::photon_map && !enough_photons(prepared.scene))

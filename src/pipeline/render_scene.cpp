@@ -29,9 +29,11 @@ Metadata render_metadata(const Scene& scene, const std::string& path, const Repo
   return metadata;
 }
 
-Image take_picture(const PreparedScene& prepared, const Shading& shading, RunContext& run) {
+Image take_picture(const PreparedScene& prepared, const Shading& shading, RunContext& run,
+                   PictureParts* parts = nullptr) {
   Stage stage(run.stages, "picture", picture_tiles(prepared.scene.camera));
-  return render_picture(prepared.scene.camera, shading, run.options.seed, run.workers, stage);
+  return render_picture(prepared.scene.camera, shading, run.options.seed, run.workers, stage,
+                        parts);
 }
 
 }  // namespace
@@ -54,10 +56,11 @@ Report render_scene(const std::string& path, const RenderFiles& files, RunContex
     write_solution(files.save_solution, prepared, solved, surfaces, run);
   }
   const Shading shading(prepared.scene, *prepared.caster, surfaces);
-  const Image image = take_picture(prepared, shading, run);
+  PictureParts parts;
+  const Image image = take_picture(prepared, shading, run, files.layers.empty() ? nullptr : &parts);
   PictureLayers layers;
   if (!files.layers.empty())
-    layers = picture_layers(files.layers, prepared, solved, surfaces, shading, run);
+    layers = picture_layers(files.layers, prepared, solved, surfaces, shading, parts, run);
   if (!run.options.quiet)
     for (const std::string& warning : layers.warnings) fmt::print(stderr, "warning: {}\n", warning);
   const Stage stage(run.stages, "write", 0);

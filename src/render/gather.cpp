@@ -75,33 +75,34 @@ Gather::Gather(const Scene& scene, const RayCaster& caster, std::uint32_t object
                               {multiply_.media[c].albedo(), multiply_.media[c].g}});
 }
 
-Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double depth_sample,
-                          Rng& rng) const {
+GatheredRadiance Gather::radiance(const Ray& ray, const Hit& start, int bounces,
+                                  double depth_sample, Rng& rng) const {
   double cosine = std::abs(ray.direction.dot(start.normal));
   double bend = curvature(start);
-  Spectrum sum = Spectrum::Zero();
+  GatheredRadiance light;
   Spectrum unscattered = Spectrum::Ones();  // share of light that comes so far, in either medium
   Spectrum passed = Spectrum::Ones();
   Ray ahead = ray;
   if (!reflections_.empty() && !field_.counts_entering_light)
-    sum += reflected_beyond_similar(ray, start, rng);
+    light.more += reflected_beyond_similar(ray, start, rng);
   for (int reflections = 0; reflections < most_reflections; ++reflections) {
     const auto hit = caster_.nearest(ahead, object_);
     if (!hit) break;  // grazed an edge: nothing lies behind
     const double cosine_end = std::abs(ahead.direction.dot(hit->normal));
     const double bend_end = curvature(*hit);
     const Segment segment{ahead, hit->t, cosine, cosine_end, bend, bend_end};
-    sum += passed * diffuse(segment, depth_sample);
+    light.more += passed * diffuse(segment, depth_sample);
     if (!field_.counts_entering_light) {
       // U_ri by the photons is that of the medium they were traced in.
       const bool by_photons = field_.channels.front().U_ri.has_value();
       const Optics& first = by_photons ? multiply_ : once_;
-      sum += (by_photons ? passed : unscattered) *
-             sampled(segment, first, depth_sample, rng,
-                     [&](const Vec3& x) { return scattered_once(x, ahead.direction, first, rng); });
+      light.once += (by_photons ? passed : unscattered) *
+                    sampled(segment, first, depth_sample, rng, [&](const Vec3& x) {
+                      return scattered_once(x, ahead.direction, first, rng);
+                    });
       if (transient_)
-        sum += passed * sampled(segment, multiply_, depth_sample, rng,
-                                [&](const Vec3& x) { return transient(x, rng); });
+        light.more += passed * sampled(segment, multiply_, depth_sample, rng,
+                                       [&](const Vec3& x) { return transient(x, rng); });
     }
     unscattered *= (-once_.sigma_t * hit->t).exp();
     passed *= (-multiply_.sigma_t * hit->t).exp();
@@ -109,8 +110,8 @@ Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double 
     const auto refracted = refract(ahead.direction, hit->normal, 1.0 / material_.ior);
     if (refracted && rng.uniform() >= fresnel_reflectance(cosine_end, 1.0 / material_.ior)) {
       if (unscattered.maxCoeff() >= invisible)
-        sum += unscattered * material_.ior * material_.ior *
-               outside_({{hit->position, *refracted}, bounces, true, true}, rng);
+        light.behind += unscattered * material_.ior * material_.ior *
+                        outside_({{hit->position, *refracted}, bounces, true, true}, rng);
       break;
     }
     ahead = {hit->position, reflect(ahead.direction, hit->normal)};
@@ -118,7 +119,7 @@ Spectrum Gather::radiance(const Ray& ray, const Hit& start, int bounces, double 
     bend = bend_end;
     depth_sample = rng.uniform();
   }
-  return sum.max(0.0);  // the half-spaces' difference may take off more than is there at dark rims
+  return light;
 }
 
 // int_0^length exp(-sigma_t s) (sigma_s U_d + E / 4 pi) ds without the transient part.

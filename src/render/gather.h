@@ -63,6 +63,16 @@ struct OutsideRay {
 };
 using OutsideRadiance = std::function<Spectrum(const OutsideRay& ray, Rng& rng)>;
 
+// Radiance inside an object, W/(length^2 sr), by what it went through there.
+struct GatheredRadiance {
+  Spectrum once = Spectrum::Zero();    // scattered once
+  Spectrum more = Spectrum::Zero();    // scattered more than once, or emitted
+  Spectrum behind = Spectrum::Zero();  // shines through
+
+  // The half-spaces' difference in `more` may take off more than is there at dark rims.
+  Spectrum sum() const { return (once + more + behind).max(0.0); }
+};
+
 class Gather {
  public:
   // All must outlive it; caster was built from scene.objects in order. outside: what a ray meets
@@ -70,11 +80,11 @@ class Gather {
   Gather(const Scene& scene, const RayCaster& caster, std::uint32_t object,
          const InsideField& field, OutsideRadiance outside);
 
-  // One Monte Carlo estimate of the radiance (W/(length^2 sr), inside) that arrives at `hit`
-  // on the surface along the view ray, which goes on into the object. depth_sample in [0, 1) places
-  // the samples along the ray: spread it evenly over the rays of one pixel.
-  Spectrum radiance(const Ray& ray, const Hit& hit, int bounces, double depth_sample,
-                    Rng& rng) const;
+  // One Monte Carlo estimate of the radiance that arrives at `hit` on the surface along the view
+  // ray, which goes on into the object. depth_sample in [0, 1) places the samples along the ray:
+  // spread it evenly over the rays of one pixel.
+  GatheredRadiance radiance(const Ray& ray, const Hit& hit, int bounces, double depth_sample,
+                            Rng& rng) const;
 
   // Beyond P1, U_d on the surface is the solution times this weight plus the mean of these
   // estimates, W/(length^2 sr). Not for channels with P1.

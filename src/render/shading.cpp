@@ -41,8 +41,9 @@ Shading::Shading(const Scene& scene, const RayCaster& caster, const GlowingSurfa
   }
 }
 
-Spectrum Shading::radiance(const Ray& ray, double depth_sample, Rng& rng) const {
-  return radiance(ray, {most_bounces, true, depth_sample}, rng);
+Spectrum Shading::radiance(const Ray& ray, double depth_sample, Rng& rng,
+                           ScatteredLight* scattered) const {
+  return radiance(ray, {most_bounces, true, depth_sample, false, scattered}, rng);
 }
 
 Spectrum Shading::radiance(const Ray& ray, const Look& look, Rng& rng) const {
@@ -100,14 +101,21 @@ Spectrum Shading::translucent_radiance(const Ray& ray, const Hit& hit,
   Spectrum light = Spectrum::Zero();
   if (!gathers_[hit.object]) {
     light = surface_radiance(hit, n, cosine, material, rng);
+    if (const auto& once = surfaces_[hit.object]->once_scattered)
+      light += once(ray, hit, n, look.depth_sample, rng);
     if (material.ior == 1.0) light += seen_through(ray, hit, material, look, rng);
   } else if (reflectance < 1.0) {
     // Smoothed normals may refract through the facet's back.
     if (!inwards || inwards->dot(hit.normal) >= 0.0)
       inwards = refract(ray.direction, hit.normal, material.ior);
-    light = (1.0 - reflectance) / (material.ior * material.ior) *
-            gathers_[hit.object]->radiance({hit.position, *inwards}, hit,
-                                           std::max(look.bounces - 1, 0), look.depth_sample, rng);
+    const double leaving = (1.0 - reflectance) / (material.ior * material.ior);
+    const GatheredRadiance inside = gathers_[hit.object]->radiance(
+        {hit.position, *inwards}, hit, std::max(look.bounces - 1, 0), look.depth_sample, rng);
+    light = leaving * inside.sum();
+    if (look.scattered != nullptr) {
+      look.scattered->once += leaving * inside.once;
+      look.scattered->more += leaving * inside.more;
+    }
   }
   if (reflectance == 0.0 || look.bounces == 0) return light;
   // Smoothed normals may mirror into the facet.
@@ -130,6 +138,23 @@ Spectrum Shading::surface_radiance(const Hit& hit, const Vec3& normal, double co
                        DiffusionCoefficients::boundary_flux_U_ri(entered[c]);
     return surface.leaving[channel](U_d, cosine);
   });
+}
+
+Spectrum Shading::solution_at(const Hit& hit, int samples, Rng& rng) const {
+  const GlowingSurface& surface = *surfaces_[hit.object];
+  const auto& gather = gathers_[hit.object];
+  bool transient = false;
+  Spectrum U = per_channel(scene_.channels, [&](int c) {
+    const auto channel = static_cast<std::size_t>(c);
+    const double value = surface.grid.interpolate(surface.U_d[channel], hit);
+    if (!gather || !surface.inside.channels[channel].beyond_p1) return value;
+    transient = true;
+    return value * gather->surface_weight(c, hit);
+  });
+  if (!transient) return U;
+  Spectrum sum = Spectrum::Zero();
+  for (int i = 0; i < samples; ++i) sum += gather->transient(hit.position, rng);
+  return U + sum / samples;
 }
 
 // What lies behind an index-matched object, weakened by exp(-sigma_t length). (A refracting one

@@ -21,14 +21,8 @@ std::string no_unit(const std::string&) {
 }
 
 Spectrum mean_intensity(const LayerPlace& place) {
-  const auto& surface = place.surfaces[place.hit.object];
-  if (!surface) return nothing;
-  Spectrum value;
-  for (int c = 0; c < 3; ++c)
-    value[c] = surface->grid.interpolate(
-        surface->U_d[static_cast<std::size_t>(std::min(c, place.prepared.scene.channels - 1))],
-        place.hit);
-  return value;
+  if (place.prepared.scene.objects[place.hit.object].translucent() == nullptr) return nothing;
+  return place.shading.solution_at(place.hit, 1, place.rng);
 }
 
 Spectrum depth(const LayerPlace& place) {
@@ -48,19 +42,19 @@ Spectrum object_number(const LayerPlace& place) {
 const std::vector<ViewLayer>& view_layers() {
   using Kind = ViewLayer::Kind;
   static const std::vector<ViewLayer> layers = {
-      {"mean intensity U_d", Kind::amount, true, radiance_unit, mean_intensity},
-      {"depth", Kind::amount, false, length_unit, depth},
-      {"normal", Kind::direction, false, no_unit, normal},
-      {"object", Kind::label, false, no_unit, object_number},
+      {"mean intensity U_d", Kind::amount, true, true, radiance_unit, mean_intensity},
+      {"depth", Kind::amount, false, false, length_unit, depth},
+      {"normal", Kind::direction, false, false, no_unit, normal},
+      {"object", Kind::label, false, false, no_unit, object_number},
   };
   return layers;
 }
 
-Spectrum layer_value(const ViewLayer& layer, const PreparedScene& prepared,
-                     const GlowingSurfaces& surfaces, const Ray& ray) {
+Spectrum layer_value(const ViewLayer& layer, const PreparedScene& prepared, const Shading& shading,
+                     const Ray& ray, Rng& rng) {
   const auto hit = prepared.caster->nearest(ray);
   if (!hit) return nothing;
-  return layer.value({prepared, surfaces, ray, *hit});
+  return layer.value({prepared, shading, *hit, rng});
 }
 
 }  // namespace knotlight

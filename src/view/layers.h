@@ -12,9 +12,9 @@ namespace knotlight {
 // What a layer is computed from.
 struct LayerPlace {
   const PreparedScene& prepared;
-  const GlowingSurfaces& surfaces;
-  const Ray& ray;
+  const Shading& shading;
   const Hit& hit;  // the first surface the ray meets
+  Rng& rng;
 };
 
 struct ViewLayer {
@@ -26,6 +26,7 @@ struct ViewLayer {
   const char* name;
   Kind kind;
   bool per_channel;  // of the light; else its three values belong together or are one
+  bool by_chance;    // one sample per pixel is an estimate with noise
   std::string (*unit)(const std::string& length);  // given the name of the scene's unit of length
   // Three values; not-a-number where the layer has none.
   Spectrum (*value)(const LayerPlace& place);
@@ -34,7 +35,7 @@ struct ViewLayer {
 const std::vector<ViewLayer>& view_layers();
 
 // The layer along a ray; not-a-number where the ray meets nothing.
-Spectrum layer_value(const ViewLayer& layer, const PreparedScene& prepared,
-                     const GlowingSurfaces& surfaces, const Ray& ray);
+Spectrum layer_value(const ViewLayer& layer, const PreparedScene& prepared, const Shading& shading,
+                     const Ray& ray, Rng& rng);
 
 }  // namespace knotlight

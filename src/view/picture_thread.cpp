@@ -18,8 +18,8 @@ constexpr double unknown_seconds_per_ray = 1e-6;
 
 RaySample ray_sample(const PictureWish& wish, const Look& look) {
   if (wish.layer != nullptr)
-    return [&look, &wish](const Ray& ray, Rng&) {
-      return layer_value(*wish.layer, *wish.view->prepared, look.surfaces, ray);
+    return [&look, &wish](const Ray& ray, Rng& rng) {
+      return layer_value(*wish.layer, *wish.view->prepared, *look.shading, ray, rng);
     };
   return [&look](const Ray& ray, Rng& rng) { return look.shading->radiance(ray, rng); };
 }
@@ -87,7 +87,7 @@ void PictureThread::run() {
 void PictureThread::refine(const PictureWish& wish) {
   const Workers workers(threads_, &cancelled_);
   if (wish.silent_passes == 0) {
-    const Look& quick = wish.view->look_in_motion();
+    const Look& quick = wish.layer != nullptr ? wish.view->look : wish.view->look_in_motion();
     const RaySample sample = ray_sample(wish, quick);
     // Where the quick look is another, it fills the time to the first fine picture.
     const int finest = &quick == &wish.view->look ? 2 : 1;
@@ -99,7 +99,7 @@ void PictureThread::refine(const PictureWish& wish) {
   }
   const RaySample sample = ray_sample(wish, wish.view->look);
   Accumulation picture(wish.camera, seed_);
-  const int passes = wish.layer != nullptr ? 1 : wish.most_passes;
+  const int passes = wish.layer != nullptr && !wish.layer->by_chance ? 1 : wish.most_passes;
   while (picture.passes() < passes) {
     picture.add_pass(sample, workers);
     if (picture.passes() >= std::min(wish.silent_passes, passes)) publish(wish, picture, 1);

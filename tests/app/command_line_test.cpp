@@ -158,6 +158,19 @@ TEST_F(CommandLine, ProbeKnowsInsideSurfaceAndOutside) {
   EXPECT_FALSE(std::getline(in, line));
 }
 
+// The part of U_d that pictures beyond P1 are made from is not what a point has.
+TEST_F(CommandLine, ProbeIsAlwaysP1) {
+  scratch_.write("in.csv", "x,y,z\n0,0,0\n0,0.5,0\n");
+  run("probe scene.yaml --points in.csv -o plain.csv");
+  run("probe scene.yaml --points in.csv -o asymptotic.csv --set solver.diffusion=asymptotic");
+  const auto contents = [&](const char* name) {
+    std::ifstream in(scratch_.path(name));
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_EQ(contents("asymptotic.csv"), contents("plain.csv"));
+  EXPECT_NE(contents("plain.csv"), "");
+}
+
 TEST_F(CommandLine, QuietPrintsNothing) {
   const ProgramResult result = run("render scene.yaml -o a.exr --quiet --set solver.tolerance=0.9");
   EXPECT_EQ(result.out, "");

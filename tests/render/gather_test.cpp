@@ -39,7 +39,7 @@ struct Ball {
     double sum = 0.0, squares = 0.0;
     for (int i = 0; i < n; ++i) {
       const double L =
-          gather.radiance({hit->position, ray.direction}, *hit, 2, (i + 0.5) / n, rng)[0];
+          gather.radiance({hit->position, ray.direction}, *hit, 2, (i + 0.5) / n, rng).sum()[0];
       sum += L / n;
       squares += L * L / n;
     }
