@@ -38,9 +38,12 @@ bool CellSample::split() const {
          std::any_of(lines.begin(), lines.end(), [](const auto& line) { return line.size() > 1; });
 }
 
-CellSample sample_cell(const AxisLines& all_lines, const std::array<int, 3>& cell,
-                       const Vec3& facing) {
-  CellSample sample;
+void sample_cell(const AxisLines& all_lines, const std::array<int, 3>& cell, const Vec3& facing,
+                 CellSample& sample) {
+  sample.inside = 0;
+  sample.links = {};
+  sample.parts.clear();
+  for (auto& line : sample.lines) line.clear();
   Eigen::Index chosen = 0;
   facing.maxCoeff(&chosen);
   sample.axis = static_cast<int>(chosen);
@@ -78,7 +81,6 @@ CellSample sample_cell(const AxisLines& all_lines, const std::array<int, 3>& cel
     sample.parts.push_back(connected_places(rest & (~rest + 1), link_up));
     rest &= ~sample.parts.back();
   }
-  return sample;
 }
 
 void add_line_part(Moments& moments, int axis, int line, const LinePart& part, const Vec3& shift) {

@@ -30,8 +30,10 @@ struct CellSample {
   bool split() const;
 };
 
-// facing: sum of area |n| over the surface in the cell.
-CellSample sample_cell(const AxisLines& lines, const std::array<int, 3>& cell, const Vec3& facing);
+// facing: sum of area |n| over the surface in the cell. What `sample` held before is lost, but not
+// its memory.
+void sample_cell(const AxisLines& lines, const std::array<int, 3>& cell, const Vec3& facing,
+                 CellSample& sample);
 
 // Quadrature over one line part: adds it to the moments of the cell with `shift` subtracted from
 // the local coordinates (for a part that is counted with the next cell). Sums over a whole cell are

@@ -17,6 +17,10 @@ GridGeometry::GridGeometry(const Shape& shape, double h, const Workers& workers)
   GeometryBuilder(*this, workers).build(shape, h);
 }
 
+bool GridGeometry::has_nested_coarse() const {
+  return levels_.size() > 1 && levels_[1].joined_cells == 0;
+}
+
 std::int32_t GridGeometry::piece_at(std::int32_t cell, const Vec3& local) const {
   const std::int32_t first = finest().first_piece[static_cast<std::size_t>(cell)];
   if (first >= 0 && finest().whole(first)) return first;

@@ -57,6 +57,9 @@ class GridGeometry {
   // Finest first, each of twice the cell size of the one before.
   const std::vector<Level>& levels() const { return levels_; }
 
+  // Whether the second level can stand for a grid of its own: there is one, and it does not join
+  // what a gap divides.
+  bool has_nested_coarse() const;
   // Where a point inside or on the surface is. Across a gap narrower than a cell the side is found
   // by the nearest scan line; a surface point should be given with its outward normal, which tells
   // the sides apart.

@@ -76,6 +76,39 @@ void GeometryBuilder::build(const Shape& shape, double h) {
     geometry_.levels_.push_back(coarser(geometry_.levels_.back()));
 }
 
+namespace {
+
+// To the moments of a cell, which need not be the piece's own.
+void add_surface_piece(Moments& moments, const SurfacePiece& piece,
+                       const std::array<int, 3>& cell) {
+  for (const SurfaceNode& node : quadrature(piece))
+    add_point(moments, node.position - Vec3(cell[0], cell[1], cell[2]), node.weight);
+}
+
+// Whether the box of a triangle meets one of the marked cells; a little more than its own cells,
+// for pieces in a grid plane.
+bool meets(const TriangleMesh& mesh, std::size_t triangle, const CellGrid& grid,
+           const std::vector<bool>& marked) {
+  Vec3 lo = mesh.corner(triangle, 0), hi = lo;
+  for (int v = 1; v < 3; ++v) {
+    lo = lo.cwiseMin(mesh.corner(triangle, v));
+    hi = hi.cwiseMax(mesh.corner(triangle, v));
+  }
+  std::array<int, 3> first, last;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    first[a] = std::max(0, static_cast<int>(std::ceil(lo[axis])) - 1);
+    last[a] = std::min(grid.n[a] - 1, static_cast<int>(std::floor(hi[axis])));
+  }
+  for (int k = first[2]; k <= last[2]; ++k)
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int i = first[0]; i <= last[0]; ++i)
+        if (marked[static_cast<std::size_t>(grid.index(i, j, k))]) return true;
+  return false;
+}
+
+}  // namespace
+
 void GeometryBuilder::find_surface_cells(const TriangleMesh& mesh) {
   std::vector<std::int32_t>& state = level().first_piece;
   for_each_surface_piece(mesh, [&](const SurfacePiece& piece) {
@@ -83,12 +116,15 @@ void GeometryBuilder::find_surface_cells(const TriangleMesh& mesh) {
         static_cast<std::size_t>(level().grid.index(piece.cell[0], piece.cell[1], piece.cell[2]));
     if (state[cell] == outside) {
       state[cell] = surface - static_cast<std::int32_t>(surface_cells_.size());
-      surface_cells_.push_back({static_cast<std::int32_t>(cell), Vec3::Zero(), Vec3::Zero(), 0.0});
+      surface_cells_.push_back({static_cast<std::int32_t>(cell), Vec3::Zero(), Vec3::Zero(), 0.0,
+                                static_cast<std::int32_t>(surface_moments_.size())});
+      surface_moments_.emplace_back();
     }
     SurfaceCell& found = surface_cells_[static_cast<std::size_t>(surface - state[cell])];
     found.facing += piece.area * piece.normal.cwiseAbs();
     found.outward += piece.area * piece.normal;
     found.area += piece.area;
+    add_surface_piece(surface_moments_[static_cast<std::size_t>(found.found)], piece, piece.cell);
   });
   std::sort(surface_cells_.begin(), surface_cells_.end(),
             [](const SurfaceCell& a, const SurfaceCell& b) { return a.cell < b.cell; });
@@ -119,16 +155,27 @@ void GeometryBuilder::sample_surface_cells(const AxisLines& lines) {
   samples_.resize(surface_cells_.size());
   workers_.for_chunks(
       samples_.size(), cells_per_chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s)
-          samples_[s] = sample_cell(lines, level().grid.position(surface_cells_[s].cell),
-                                    surface_cells_[s].facing);
+        CellSample sample;  // its memory serves all cells
+        for (std::size_t s = begin; s < end; ++s) {
+          sample_cell(lines, level().grid.position(surface_cells_[s].cell),
+                      surface_cells_[s].facing, sample);
+          SampledCell& kept = samples_[s];
+          kept.inside = sample.inside;
+          kept.links = sample.links;
+          kept.split = sample.split();
+          for (int line = 0; line < 16; ++line)
+            for (const LinePart& part : sample.lines[static_cast<std::size_t>(line)])
+              add_line_part(kept.volume, sample.axis, line, part, Vec3::Zero());
+          if (kept.split || sample.parts.empty())
+            kept.details = std::make_unique<CellSample>(sample);
+        }
       });
 }
 
 // Whether what a cell too thin to have places holds goes on in the next cell: some line does.
 bool GeometryBuilder::joins_neighbour(std::size_t index) const {
   const Level& fine = geometry_.finest();
-  const CellSample& sample = samples_[index];
+  const CellSample& sample = *samples_[index].details;
   for (int line = 0; line < 16; ++line)
     for (const LinePart& part : sample.lines[static_cast<std::size_t>(line)])
       for (const int side : {-1, 1}) {
@@ -151,7 +198,7 @@ void GeometryBuilder::make_pieces() {
   std::vector<std::int32_t>& state = level().first_piece;
   std::vector<bool> joins(samples_.size());
   for (std::size_t s = 0; s < samples_.size(); ++s)
-    joins[s] = samples_[s].parts.empty() && joins_neighbour(s);
+    joins[s] = samples_[s].inside == 0 && joins_neighbour(s);
   std::size_t next_sample = 0;
   for (std::size_t cell = 0; cell < state.size(); ++cell) {
     if (state[cell] == outside) continue;
@@ -162,31 +209,30 @@ void GeometryBuilder::make_pieces() {
       continue;
     }
     const bool joined = joins[next_sample];
-    CellSample& sample = samples_[next_sample++];
-    Moments seen{};
-    for (int line = 0; line < 16; ++line)
-      for (const LinePart& part : sample.lines[static_cast<std::size_t>(line)])
-        add_line_part(seen, sample.axis, line, part, Vec3::Zero());
-    if (joined || !(total(seen) > least_volume)) {
+    SampledCell& sample = samples_[next_sample++];
+    if (joined || !(total(sample.volume) > least_volume)) {
       state[cell] = outside;
       if (joined)
-        geometry_.splits_.emplace_back(static_cast<std::int32_t>(cell), std::move(sample));
+        geometry_.splits_.emplace_back(static_cast<std::int32_t>(cell), std::move(*sample.details));
       continue;
     }
-    const bool split = sample.split();
-    if (sample.parts.empty()) sample.parts.push_back(0);
-    for (const Places places : sample.parts) {
+    const auto add_piece = [&](Places places) {
       CutPiece cut;
       cut.piece = static_cast<std::int32_t>(level().pieces.size());
       cut.inside = places;
       cut.links = sample.links;
-      if (!split) cut.volume = seen;
+      if (!sample.split) cut.volume = sample.volume;
       level().pieces.push_back(
           {static_cast<std::int32_t>(cell), static_cast<std::int32_t>(level().cuts.size()), {}});
       level().cuts.push_back(cut);
-    }
+    };
+    if (sample.split && sample.inside != 0)
+      for (const Places places : sample.details->parts) add_piece(places);
+    else
+      add_piece(sample.inside);
     state[cell] = first;
-    if (split) geometry_.splits_.emplace_back(static_cast<std::int32_t>(cell), std::move(sample));
+    if (sample.split)
+      geometry_.splits_.emplace_back(static_cast<std::int32_t>(cell), std::move(*sample.details));
   }
   samples_.clear();
 }
@@ -259,18 +305,40 @@ void GeometryBuilder::add_split_volumes() {
 
 void GeometryBuilder::add_surface(const TriangleMesh& mesh) {
   const Level& fine = level();
-  for_each_surface_piece(mesh, [&](const SurfacePiece& piece) {
-    const Vec3 centroid = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3.0;
-    const Place place = geometry_.locate_in_cells(
-        Vec3(piece.cell[0] + 0.5, piece.cell[1] + 0.5, piece.cell[2] + 0.5),
-        centroid - step_inside * piece.normal);
-    if (place.piece < 0) return;
-    area_found_ += piece.area;
-    const auto p = fine.grid.position(fine.pieces[static_cast<std::size_t>(place.piece)].cell);
-    CutPiece& cut = cut_of(place.piece);
-    for (const SurfaceNode& node : quadrature(piece))
-      add_point(cut.surface, node.position - Vec3(p[0], p[1], p[2]), node.weight);
-  });
+  // Cells in one piece have theirs already; of the others each bit of surface looks for its own.
+  std::vector<bool> open(fine.grid.cells());
+  bool any_open = false;
+  const auto& splits = geometry_.splits_;
+  auto split = splits.begin();
+  for (const SurfaceCell& s : surface_cells_) {
+    while (split != splits.end() && split->first < s.cell) ++split;
+    const std::int32_t piece = fine.first_piece[static_cast<std::size_t>(s.cell)];
+    if (piece < 0 || (split != splits.end() && split->first == s.cell)) {
+      open[static_cast<std::size_t>(s.cell)] = true;
+      any_open = true;
+      continue;
+    }
+    area_found_ += s.area;
+    cut_of(piece).surface = surface_moments_[static_cast<std::size_t>(s.found)];
+  }
+  surface_moments_.clear();
+  if (!any_open) return;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (meets(mesh, t, fine.grid, open))
+      for_each_surface_piece(mesh, t, [&](const SurfacePiece& piece) {
+        if (!open[static_cast<std::size_t>(
+                fine.grid.index(piece.cell[0], piece.cell[1], piece.cell[2]))])
+          return;
+        const Vec3 centroid = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3.0;
+        const Place place = geometry_.locate_in_cells(
+            Vec3(piece.cell[0] + 0.5, piece.cell[1] + 0.5, piece.cell[2] + 0.5),
+            centroid - step_inside * piece.normal);
+        if (place.piece < 0) return;
+        area_found_ += piece.area;
+        add_surface_piece(
+            cut_of(place.piece).surface, piece,
+            fine.grid.position(fine.pieces[static_cast<std::size_t>(place.piece)].cell));
+      });
 }
 
 // Surface with no whole cell among the 27 around it.

@@ -1,6 +1,7 @@
 // Makes a GridGeometry from a shape, step by step.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/mesh.h"
@@ -17,9 +18,18 @@ class GeometryBuilder {
  private:
   struct SurfaceCell {
     std::int32_t cell;
-    Vec3 facing;   // sum of area |n|
-    Vec3 outward;  // sum of area n
-    double area;   // in faces of a cell
+    Vec3 facing;         // sum of area |n|
+    Vec3 outward;        // sum of area n
+    double area;         // in faces of a cell
+    std::int32_t found;  // its place in surface_moments_
+  };
+  // What the lines say about a surface cell.
+  struct SampledCell {
+    Places inside = 0;
+    std::array<std::uint16_t, 6> links{};
+    bool split = false;
+    Moments volume{};                     // of all parts together, in cell volumes
+    std::unique_ptr<CellSample> details;  // of cells without places or that a gap may divide
   };
 
   Level& level() { return geometry_.levels_.front(); }
@@ -42,7 +52,8 @@ class GeometryBuilder {
   GridGeometry& geometry_;
   const Workers& workers_;
   std::vector<SurfaceCell> surface_cells_;  // by cell
-  std::vector<CellSample> samples_;         // one per surface cell
+  std::vector<Moments> surface_moments_;    // one per surface cell, in cell faces
+  std::vector<SampledCell> samples_;        // one per surface cell
   double area_found_ = 0.0;                 // in faces of a cell
 };
 

@@ -114,6 +114,17 @@ void number_unknowns(Level& level) {
   level.dofs = next;
 }
 
+namespace {
+
+// Whether the parts of the object in the children of one coarse cell hang together within it.
+bool hangs_together(const Level& fine, std::vector<Around>& children) {
+  group_pieces(fine, children);
+  return std::all_of(children.begin(), children.end(),
+                     [](const Around& child) { return child.group == 0; });
+}
+
+}  // namespace
+
 Level coarser(const Level& fine) {
   Level coarse;
   coarse.grid.origin = fine.grid.origin;
@@ -143,6 +154,9 @@ Level coarser(const Level& fine) {
         piece.cell = coarse.grid.index(i, j, k);
         const auto index = static_cast<std::int32_t>(coarse.pieces.size());
         if (whole_children != 8) {
+          std::vector<Around> inside;
+          for_each_child([&](int c, std::int32_t p) { inside.push_back({p, c, 0}); });
+          if (!hangs_together(fine, inside)) ++coarse.joined_cells;
           cut.piece = index;
           cut.loose = 0x3f;
           for_each_child([&](int c, std::int32_t p) {

@@ -41,6 +41,8 @@ struct Level {
   std::vector<Piece> pieces;              // by cell
   std::vector<CutPiece> cuts;
   std::int32_t dofs = 0;
+  // Cells in which coarser() has put together what faces between its children keep apart.
+  std::size_t joined_cells = 0;
 
   bool whole(std::int32_t piece) const { return pieces[static_cast<std::size_t>(piece)].cut < 0; }
   const CutPiece& cut(std::int32_t piece) const {

@@ -11,20 +11,19 @@ Triple quadratics(double x) {
   return {(1.0 - x) * (1.0 - x), x * (1.0 - x), x * x};
 }
 
-// Row a: the parent's function a in terms of the child's functions, from X = (x + offset) / 2.
-using Transfer = std::array<Triple, 3>;
-constexpr Transfer to_parent_low{{{1.0, 1.0, 0.25}, {0.0, 0.5, 0.25}, {0.0, 0.0, 0.25}}};
-constexpr Transfer to_parent_high{{{0.25, 0.0, 0.0}, {0.25, 0.5, 0.0}, {0.25, 1.0, 1.0}}};
-
-// Applies the transfer along the axis whose moments are `stride` apart.
-Moments transfer(const Moments& m, const Transfer& t, std::size_t stride) {
-  Moments result{};
-  for (std::size_t i = 0; i < 27; ++i) {
-    const std::size_t a = i / stride % 3;
-    const std::size_t base = i - a * stride;
-    for (std::size_t b = 0; b < 3; ++b) result[i] += t[a][b] * m[base + b * stride];
+// A child's functions along the axis whose moments are Stride apart become the parent's, by
+// X = (x + offset) / 2: (1-X)^2 = (1-x)^2 + x (1-x) + x^2 / 4 and so on for the lower child, the
+// mirror image of it for the upper one.
+template <std::size_t Stride>
+void transfer(Moments& m, int offset) {
+  const std::size_t near = offset == 0 ? 0 : 2 * Stride, far = 2 * Stride - near;
+  for (std::size_t line = 0; line < 9; ++line) {
+    double* const at = m.data() + line % Stride + line / Stride * 3 * Stride;
+    const double quarter = 0.25 * at[far], middle = at[Stride];
+    at[near] += middle + quarter;
+    at[Stride] = 0.5 * middle + quarter;
+    at[far] = quarter;
   }
-  return result;
 }
 
 }  // namespace
@@ -57,11 +56,10 @@ double total(const Moments& moments) {
 
 void add_to_parent(Moments& parent, const Moments& child, int corner, double measure) {
   Moments m = child;
-  std::size_t stride = 1;
-  for (const int offset : corner_offset(corner)) {
-    m = transfer(m, offset == 0 ? to_parent_low : to_parent_high, stride);
-    stride *= 3;
-  }
+  const auto offset = corner_offset(corner);
+  transfer<1>(m, offset[0]);
+  transfer<3>(m, offset[1]);
+  transfer<9>(m, offset[2]);
   for (std::size_t i = 0; i < 27; ++i) parent[i] += measure * m[i];
 }
 

@@ -6,9 +6,11 @@
 // linear fields, and for constants in particular, so energy is conserved.
 #pragma once
 
+#include <Eigen/StdVector>
+#include <memory>
 #include <vector>
 
-#include "grid/level.h"
+#include "grid/pattern.h"
 
 namespace knotlight {
 
@@ -20,49 +22,42 @@ struct OperatorCoefficients {
   double penalty = 0.5;
 };
 
+// Real: double, or float for preconditioners, which moves half the memory.
+template <class Real>
 class GridOperator {
  public:
-  // `level` must outlive the operator. fineness: cell size over the finest grid's.
-  GridOperator(const Level& level, const OperatorCoefficients& coefficients, double fineness);
+  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
-  std::int32_t size() const { return level_.dofs; }
+  // fineness: cell size over the finest grid's.
+  GridOperator(const Level& level, const OperatorCoefficients& coefficients, double fineness);
+  // The same times `scale`, a factor that keeps the entries within the range of float.
+  template <class Other>
+  GridOperator(const GridOperator<Other>& other, double scale);
+
+  std::int32_t size() const { return pattern_->unknowns; }
   // y = A x; not the same vector.
-  void apply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  void apply(const Vector& x, Vector& y) const;
   // An unknown whose row is zero (a piece without volume, surface and neighbours) has 0 here.
-  const Eigen::VectorXd& diagonal() const { return diagonal_; }
+  const Vector& diagonal() const { return diagonal_; }
 
  private:
-  // Unknowns first .. first + count - 1 are neighbours along x with whole cells all around; row r =
-  // (dy+1) + 3 (dz+1) of their neighbours starts at rows[r].
-  struct Run {
-    std::int32_t first, count;
-    std::array<std::int32_t, 9> rows;
-  };
-  struct Element {
-    std::int32_t piece;
-    std::int32_t matrix;  // -1: the whole cell's
-  };
-  // Unknowns on the three planes x = -1, 0, 1 across a penalised face.
-  struct Face {
-    std::array<std::array<std::int32_t, 4>, 3> dof;
-  };
+  template <class>
+  friend class GridOperator;
+  using Element = Eigen::Matrix<Real, 8, 8>;
 
-  void find_runs();
-  void find_elements(const OperatorCoefficients& coefficients);
-  void find_faces();
-  void apply_runs(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  void apply_runs(const Vector& x, Vector& y) const;
   void find_diagonal();
 
-  const Level& level_;
-  ElementMatrix whole_;
-  std::array<double, 4> stencil_{};  // by the number of axes along which the neighbour differs
-  double penalty_ = 0.0;             // times the face's matrix: length
-  std::vector<Run> runs_;
-  std::vector<std::uint8_t> in_run_;  // per unknown
-  std::vector<Element> elements_;
-  std::vector<ElementMatrix> matrices_;
-  std::vector<Face> faces_;
-  Eigen::VectorXd diagonal_;
+  std::shared_ptr<const GridPattern> pattern_;
+  Element whole_;
+  std::array<Real, 4> stencil_{};      // by the number of axes along which the neighbour differs
+  Eigen::Matrix<Real, 4, 4> penalty_;  // of a face
+  std::vector<Element, Eigen::aligned_allocator<Element>> cuts_;  // one per cut cell
+  Vector diagonal_;
 };
+
+extern template class GridOperator<double>;
+extern template class GridOperator<float>;
+extern template GridOperator<float>::GridOperator(const GridOperator<double>&, double);
 
 }  // namespace knotlight

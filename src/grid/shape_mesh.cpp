@@ -65,7 +65,7 @@ TriangleMesh mesh_in_cells(const Shape& shape, const CellGrid& grid) {
     for (Vec3& v : mesh.vertices) v = grid.to_cells(v);
   } else {
     const auto& sphere = std::get<Sphere>(shape);
-    mesh = sphere_mesh(sphere.radius / grid.h, 0.5);
+    mesh = sphere_mesh(sphere.radius / grid.h, 1.0);
     const Vec3 center = grid.to_cells(sphere.center);
     for (Vec3& v : mesh.vertices) v += center;
   }

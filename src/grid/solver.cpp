@@ -59,6 +59,7 @@ void GridLoad::add_sources(const Points& positions, const Eigen::VectorXd& stren
 }
 
 void GridLoad::add_uniform(double f) {
+  if (f == 0.0) return;
   values_ -= f * node_weights(geometry_->finest()).volume;
 }
 
@@ -133,8 +134,21 @@ GridSolution GridSolver::solve(const GridLoad& load, double tolerance) const {
   return solve(load.values(), tolerance);
 }
 
-GridSolution GridSolver::solve(const Eigen::VectorXd& load, double tolerance) const {
-  ConjugateGradientResult result = knotlight::solve(multigrid_, load, tolerance, max_iterations);
+GridSolution GridSolver::solve(const Eigen::VectorXd& load, double tolerance,
+                               const Eigen::VectorXd& start) const {
+  return solution(load, knotlight::solve(multigrid_, 0, load, start, tolerance, max_iterations));
+}
+
+GridSolution GridSolver::solve_coarse(const Eigen::VectorXd& load, double tolerance) const {
+  assert(geometry_->has_nested_coarse());
+  ConjugateGradientResult result =
+      knotlight::solve(multigrid_, 1, multigrid_.restricted(load), {}, tolerance, max_iterations);
+  result.x = multigrid_.prolonged(result.x);
+  return solution(load, std::move(result));
+}
+
+GridSolution GridSolver::solution(const Eigen::VectorXd& load,
+                                  ConjugateGradientResult result) const {
   GridSolution solution;
   solution.converged = result.converged;
   solution.iterations = result.iterations;

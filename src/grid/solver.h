@@ -104,12 +104,19 @@ class GridSolver {
   // geometry->ok(); lambda >= 0 (1/length); k > 0 (length). k far below the cell size acts as a
   // stiff penalty and loses accuracy.
   GridSolver(std::shared_ptr<const GridGeometry> geometry, double lambda, double k);
-
+  // tolerance: of the linear system, |b - A x| <= tolerance |b|. start: values at the nodes that
+  // the iteration begins with; empty = zero.
   GridSolution solve(const GridLoad& load, double tolerance = 1e-9) const;
-  GridSolution solve(const Eigen::VectorXd& load, double tolerance = 1e-9) const;
+  GridSolution solve(const Eigen::VectorXd& load, double tolerance = 1e-9,
+                     const Eigen::VectorXd& start = {}) const;
+  // On cells of twice the size, with the same sources; the field is that of the larger cells, told
+  // at the nodes of the smaller. geometry->has_nested_coarse().
+  GridSolution solve_coarse(const Eigen::VectorXd& load, double tolerance = 1e-9) const;
   const GridGeometry& geometry() const { return *geometry_; }
 
  private:
+  GridSolution solution(const Eigen::VectorXd& load, ConjugateGradientResult result) const;
+
   std::shared_ptr<const GridGeometry> geometry_;
   double lambda_, k_;
   NodeWeights weights_;

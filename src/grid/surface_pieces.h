@@ -21,6 +21,9 @@ struct SurfacePiece {
 // mesh's to rounding.
 void for_each_surface_piece(const TriangleMesh& mesh,
                             const std::function<void(const SurfacePiece&)>& visit);
+// Of one triangle alone.
+void for_each_surface_piece(const TriangleMesh& mesh, std::size_t triangle,
+                            const std::function<void(const SurfacePiece&)>& visit);
 
 struct SurfaceNode {
   Vec3 position;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "grid/error_estimate.h"
 #include "grid/solver.h"
@@ -16,10 +18,14 @@ namespace {
 // coarse grid too, and comparing the two says nothing any more.
 constexpr double coarsest_cells = 2.0;  // transport mean free paths
 constexpr double lost_allowed = 1e-3;   // share of the sources that found no cell
+// Residual of the linear systems per tolerance: the field's rms error from it was half of it or
+// less, so this is far below the error of the cells. It counts in full in the estimate.
+constexpr double linear_share = 0.03;
 
 // The multigrid hierarchies of both grids.
 struct GridFactors {
-  GridSolver fine, coarse;
+  GridSolver fine;
+  std::optional<GridSolver> coarse;
 };
 
 std::shared_ptr<const GridFactors> kept_factors(const ChannelProblem& p) {
@@ -27,11 +33,32 @@ std::shared_ptr<const GridFactors> kept_factors(const ChannelProblem& p) {
   auto factors = p.factors.find<GridFactors>(key);
   if (!factors) {
     const double lambda = p.coefficients.lambda, k = p.coefficients.k;
-    factors = std::make_shared<const GridFactors>(
-        GridFactors{GridSolver(p.grids->fine, lambda, k), GridSolver(p.grids->coarse, lambda, k)});
+    auto made = std::make_shared<GridFactors>(GridFactors{{p.grids->fine, lambda, k}, {}});
+    if (p.grids->coarse) made->coarse.emplace(p.grids->coarse, lambda, k);
+    factors = made;
     p.factors.put(key, factors);
   }
   return factors;
+}
+
+// On cells of twice the size: the mean of the two halves of the light, and half their difference,
+// which is the noise. It is as smooth as the field, so the smaller cells can do without.
+struct CoarseSolutions {
+  GridSolution mean, noise;
+  bool converged() const { return mean.converged && noise.converged; }
+};
+
+CoarseSolutions solve_coarse(const ChannelProblem& p, const GridFactors& factors,
+                             const std::array<GridLoad, 2>& fine_loads, double tolerance) {
+  const auto solve = [&](const std::array<GridLoad, 2>& loads, double second) {
+    const Eigen::VectorXd load = 0.5 * (loads[0].values() + second * loads[1].values());
+    return factors.coarse ? factors.coarse->solve(load, tolerance)
+                          : factors.fine.solve_coarse(load, tolerance);
+  };
+  if (!factors.coarse) return {solve(fine_loads, 1.0), solve(fine_loads, -1.0)};
+  const std::array<GridLoad, 2> loads{incident_load(*p.grids->coarse, p.light.halves[0], p),
+                                      incident_load(*p.grids->coarse, p.light.halves[1], p)};
+  return {solve(loads, 1.0), solve(loads, -1.0)};
 }
 
 }  // namespace
@@ -53,47 +80,44 @@ ObjectGrids make_grids(const Object& object, int channels, const SolverSettings&
   ObjectGrids grids;
   grids.size = grid_cell_size(object, channels, settings);
   grids.fine = std::make_shared<GridGeometry>(object.shape, grids.size.h, workers);
-  grids.coarse = std::make_shared<GridGeometry>(object.shape, 2.0 * grids.size.h, workers);
+  if (!grids.fine->ok() || !grids.fine->has_nested_coarse())
+    grids.coarse = std::make_shared<GridGeometry>(object.shape, 2.0 * grids.size.h, workers);
   return grids;
 }
 
 ChannelSolution solve_by_grid(const ChannelProblem& p) {
   const ObjectGrids& grids = *p.grids;
   ChannelSolution solution;
-  if (!grids.fine->ok() || !grids.coarse->ok()) {
+  if (!grids.fine->ok() || (grids.coarse && !grids.coarse->ok())) {
     solution.failures.push_back("the grid cannot hold the object: " +
                                 (grids.fine->ok() ? grids.coarse : grids.fine)->failure());
     return solution;
   }
 
   const std::shared_ptr<const GridFactors> factors = kept_factors(p);
-  const GridSolver& fine = factors->fine;
-  const GridLoad loads[2] = {incident_load(*grids.fine, p.light.halves[0], p),
-                             incident_load(*grids.fine, p.light.halves[1], p)};
+  const double tolerance = linear_share * p.settings.tolerance;
+  const std::array<GridLoad, 2> loads{incident_load(*grids.fine, p.light.halves[0], p),
+                                      incident_load(*grids.fine, p.light.halves[1], p)};
+  const CoarseSolutions coarse = solve_coarse(p, *factors, loads, tolerance);
+  // The coarse field is a start only where its nodes are the fine grid's.
   const GridSolution mean =
-      fine.solve(Eigen::VectorXd(0.5 * (loads[0].values() + loads[1].values())));
+      factors->fine.solve(Eigen::VectorXd(0.5 * (loads[0].values() + loads[1].values())), tolerance,
+                          factors->coarse ? Eigen::VectorXd() : coarse.mean.field.nodes());
   const GridField& field = mean.field;
-
-  // The halves apart on the coarse grid alone: their difference, the noise, is as smooth as the
-  // field, and an eighth of the work.
-  const GridSolver& coarse = factors->coarse;
-  const GridSolution halves[2] = {coarse.solve(incident_load(*grids.coarse, p.light.halves[0], p)),
-                                  coarse.solve(incident_load(*grids.coarse, p.light.halves[1], p))};
-  const GridField coarse_field(grids.coarse,
-                               0.5 * (halves[0].field.nodes() + halves[1].field.nodes()));
 
   const SurfaceSamples checks = boundary_check_points(p);
   const Eigen::VectorXd u = field.values(checks.positions, checks.normals);
-  const GridErrorEstimate estimate = estimate_error(
-      field, coarse_field, checks.positions, checks.normals, p.coefficients.lambda * grids.size.h);
+  const GridErrorEstimate estimate =
+      estimate_error(field, coarse.mean.field, checks.positions, checks.normals,
+                     p.coefficients.lambda * grids.size.h);
   // Both relative to the rms over the surface.
-  solution.numerical_error = relative(estimate.rms * estimate.scale, root_mean_square(u));
+  solution.numerical_error =
+      relative(estimate.rms * estimate.scale, root_mean_square(u)) + mean.residual;
   solution.noise =
-      relative(0.5 * root_mean_square(halves[0].field.values(checks.positions, checks.normals) -
-                                      halves[1].field.values(checks.positions, checks.normals)),
+      relative(root_mean_square(coarse.noise.field.values(checks.positions, checks.normals)),
                root_mean_square(u));
 
-  const bool converged = mean.converged && halves[0].converged && halves[1].converged;
+  const bool converged = mean.converged && coarse.converged();
   solution.solved = field.nodes().allFinite() && u.allFinite();
   if (!converged) solution.failures.push_back("the linear solver did not converge");
   if (!solution.solved) solution.failures.push_back("the solution has values that are not finite");

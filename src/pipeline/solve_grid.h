@@ -13,6 +13,7 @@ namespace knotlight {
 struct ObjectGrids {
   CellSize size;
   std::shared_ptr<const GridGeometry> fine;
+  // Null if the fine grid's own second level will do.
   std::shared_ptr<const GridGeometry> coarse;
 };
 

@@ -24,8 +24,9 @@ Moments volume_of(const CellSample& sample) {
 
 // A whole cell's quadrature is exact for all 27 moments.
 TEST(CellSampling, WholeCell) {
-  const CellSample s = sample_cell(lines(box_mesh(Vec3(0.5, 0.5, 0.5), Vec3(3.5, 3.5, 3.5))),
-                                   {1, 1, 1}, Vec3(0, 1, 0));
+  CellSample s;
+  sample_cell(lines(box_mesh(Vec3(0.5, 0.5, 0.5), Vec3(3.5, 3.5, 3.5))), {1, 1, 1}, Vec3(0, 1, 0),
+              s);
   EXPECT_EQ(s.inside, all_places);
   EXPECT_EQ(s.parts.size(), 1U);
   for (const auto link : s.links) EXPECT_EQ(link, 0xffff);
@@ -37,7 +38,8 @@ TEST(CellSampling, WholeCell) {
 TEST(CellSampling, NarrowGap) {
   TriangleMesh mesh = box_mesh(Vec3(0.5, 0.5, 0.5), Vec3(3.5, 3.5, 1.4999));
   append(mesh, box_mesh(Vec3(0.5, 0.5, 1.5001), Vec3(3.5, 3.5, 3.5)));
-  const CellSample s = sample_cell(lines(mesh), {1, 1, 1}, Vec3(0, 0, 2));
+  CellSample s;
+  sample_cell(lines(mesh), {1, 1, 1}, Vec3(0, 0, 2), s);
   EXPECT_EQ(s.inside, all_places);
   ASSERT_EQ(s.parts.size(), 2U);
   EXPECT_EQ(s.parts[0], 0x00000000ffffffffULL);
@@ -51,7 +53,8 @@ TEST(CellSampling, SlantedSurface) {
   TriangleMesh mesh = box_mesh(Vec3(0.2, 0.2, 0.2), Vec3(3.8, 3.8, 1.5));
   for (Vec3& v : mesh.vertices)
     if (v.z() > 1.0) v.z() += 0.3 * (v.x() - 1.5) + 0.2 * (v.y() - 1.5);
-  const CellSample s = sample_cell(lines(mesh), {1, 1, 1}, Vec3(0.3, 0.2, 1));
+  CellSample s;
+  sample_cell(lines(mesh), {1, 1, 1}, Vec3(0.3, 0.2, 1), s);
   EXPECT_EQ(s.axis, 2);
   EXPECT_FALSE(s.split());
   EXPECT_NEAR(total(volume_of(s)), 0.5, 1e-12);

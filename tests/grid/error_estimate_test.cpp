@@ -10,14 +10,21 @@ namespace {
 using namespace grid_cases;
 
 // The estimate from two grids against the true error, relative to the largest value: at least the
-// true one in most cases, and not ten times it.
-TEST(ErrorEstimate, BracketsTheTrueError) {
+// true one in most cases, and not ten times it. With a coarse grid of its own, and with the fine
+// one's second level.
+class EstimateFrom : public testing::TestWithParam<bool> {};
+
+TEST_P(EstimateFrom, BracketsTheTrueError) {
   int above = 0, cases = 0;
   for (const BeamCase& beam : beam_cases())
     for (const double h : {2.0 / 48.0, 2.0 / 37.0}) {
       const double lambda = std::sqrt(3.0 * (1.0 - beam.albedo)) * beam.sigma_t;
-      const GridField fine = beam_on_sphere(beam, geometry(Sphere{}, h)).field;
-      const GridField coarse = beam_on_sphere(beam, geometry(Sphere{}, 2.0 * h)).field;
+      const auto g = geometry(Sphere{}, h);
+      const GridField fine = beam_on_sphere(beam, g).field;
+      const bool nested = GetParam();
+      ASSERT_TRUE(g->has_nested_coarse());
+      const GridField coarse = nested ? coarse_beam_on_sphere(beam, g).field
+                                      : beam_on_sphere(beam, geometry(Sphere{}, 2.0 * h)).field;
       double error = 0.0;
       Points points(3, static_cast<Eigen::Index>(24 * beam.surface.size()));
       Eigen::Index at = 0;
@@ -41,6 +48,8 @@ TEST(ErrorEstimate, BracketsTheTrueError) {
     }
   EXPECT_GE(above, cases - 1);
 }
+
+INSTANTIATE_TEST_SUITE_P(NestedGrid, EstimateFrom, testing::Bool());
 
 // The same difference stands for a larger error where light decays within a cell.
 TEST(ErrorEstimate, IsLargerWhereLightDecaysWithinACell) {

@@ -34,6 +34,17 @@ TEST(GridGeometry, CoarserLevelsKeepTotals) {
   }
 }
 
+// The second level is no grid of its own where it joins what a gap divides.
+TEST(GridGeometry, NestedCoarseGrid) {
+  EXPECT_TRUE(geometry(Sphere{}, 0.1)->has_nested_coarse());
+  EXPECT_FALSE(geometry(Sphere{}, 0.5)->has_nested_coarse());  // there is none
+  TriangleMesh apart = box_mesh(Vec3(-0.5, -0.5, 0.01), Vec3(0.5, 0.5, 0.6));
+  append(apart, box_mesh(Vec3(-0.5, -0.5, -0.6), Vec3(0.5, 0.5, -0.01)));
+  const auto g = geometry(apart, 0.05);
+  ASSERT_GT(g->levels().size(), 1U);
+  EXPECT_FALSE(g->has_nested_coarse());
+}
+
 TEST(GridGeometry, SameBitsForAnyThreadCount) {
   const Shape shape = torus(1.0, 0.4, 40, 20);
   const GridGeometry one(shape, 0.05, Workers(1)), three(shape, 0.05, Workers(3));

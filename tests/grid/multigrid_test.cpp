@@ -22,13 +22,16 @@ TEST(Multigrid, PreconditionerIsSymmetricPositive) {
   const auto g = geometry(torus(1.0, 0.4, 40, 20), 0.08);
   const Multigrid m(g->levels(), {0.5, 0.1});
   auto work = m.workspace();
-  const Eigen::VectorXd x = random_vector(m.finest().size(), 1);
-  const Eigen::VectorXd y = random_vector(m.finest().size(), 2);
-  Eigen::VectorXd Bx, By;
-  m.precondition(x, Bx, work);
-  m.precondition(y, By, work);
-  EXPECT_NEAR(y.dot(Bx) / x.dot(By), 1.0, 1e-9);
-  EXPECT_GT(x.dot(Bx), 0.0);
+  for (const std::size_t at : {0, 1}) {
+    const Eigen::VectorXd x = random_vector(m.matrix(at).size(), 1);
+    const Eigen::VectorXd y = random_vector(m.matrix(at).size(), 2);
+    Eigen::VectorXd Bx, By;
+    m.precondition(at, x, Bx, work);
+    m.precondition(at, y, By, work);
+    // Up to the rounding of float, 6e-8 in each of the sums.
+    EXPECT_NEAR(y.dot(Bx) / x.dot(By), 1.0, 2e-5);
+    EXPECT_GT(x.dot(Bx), 0.0);
+  }
 }
 
 // The number of steps does not grow with the number of cells, for any medium.
@@ -38,20 +41,52 @@ TEST(Multigrid, StepsDoNotGrow) {
     for (const double lambda : {0.0, 30.0})
       for (const double k : {0.01, 3.0}) {
         const Multigrid m(g->levels(), {lambda, k});
-        const auto result = solve(m, random_vector(m.finest().size(), 3), 1e-8, 60);
-        EXPECT_TRUE(result.converged);
-        EXPECT_LE(result.iterations, 20) << lambda << " " << k << " " << h;
+        for (const std::size_t at : {0, 1}) {
+          const auto result = solve(m, at, random_vector(m.matrix(at).size(), 3), {}, 1e-8, 60);
+          EXPECT_TRUE(result.converged);
+          EXPECT_LE(result.iterations, 20) << lambda << " " << k << " " << h << " " << at;
+        }
       }
   }
+}
+
+// Conjugate gradients begin where they are told to.
+TEST(Multigrid, StartsFromAGuess) {
+  const auto g = geometry(Sphere{}, 0.1);
+  const Multigrid m(g->levels(), {1.0, 0.1});
+  const Eigen::VectorXd b = random_vector(m.matrix(0).size(), 4);
+  const auto from_zero = solve(m, 0, b, {}, 1e-9, 60);
+  const auto warm = solve(m, 0, b, from_zero.x + 1e-3 * random_vector(b.size(), 5), 1e-9, 60);
+  EXPECT_TRUE(warm.converged);
+  EXPECT_LT(warm.iterations, from_zero.iterations);
+  EXPECT_LT((warm.x - from_zero.x).norm(), 1e-7 * from_zero.x.norm());
+  EXPECT_EQ(solve(m, 0, b, warm.x, 1e-8, 60).iterations, 0);
+}
+
+// The coarse functions lie among the fine ones: constants stay, and the two ways are transposed.
+TEST(Multigrid, BetweenTheGrids) {
+  const auto g = geometry(Sphere{}, 0.1);
+  const Multigrid m(g->levels(), {1.0, 0.1});
+  const Eigen::VectorXd x = random_vector(m.matrix(0).size(), 6);
+  const Eigen::VectorXd y = random_vector(m.matrix(1).size(), 7);
+  EXPECT_NEAR(x.dot(m.prolonged(y)), m.restricted(x).dot(y), 1e-12 * x.norm() * y.norm());
+  EXPECT_LT((m.prolonged(Eigen::VectorXd::Ones(y.size())).array() - 1.0).abs().maxCoeff(), 1e-15);
+  // Without penalty and with all moments added up, energies agree.
+  const Multigrid plain(g->levels(), {1.0, 0.1, 0.0});
+  const Eigen::VectorXd Py = plain.prolonged(y);
+  Eigen::VectorXd APy, Ay;
+  plain.matrix(0).apply(Py, APy);
+  plain.matrix(1).apply(y, Ay);
+  EXPECT_NEAR(Py.dot(APy) / y.dot(Ay), 1.0, 1e-12);
 }
 
 TEST(Multigrid, BadDataEnd) {
   const auto g = geometry(Sphere{}, 0.2);
   const Multigrid m(g->levels(), {1.0, 0.1});
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(m.finest().size());
-  EXPECT_TRUE(solve(m, b, 1e-9, 10).converged);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(m.matrix(0).size());
+  EXPECT_TRUE(solve(m, 0, b, {}, 1e-9, 10).converged);
   b[5] = std::nan("");
-  EXPECT_FALSE(solve(m, b, 1e-9, 10).converged);
+  EXPECT_FALSE(solve(m, 0, b, {}, 1e-9, 10).converged);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ Eigen::VectorXd random_vector(std::int32_t size, std::uint64_t stream) {
   return x;
 }
 
-Eigen::MatrixXd dense(const GridOperator& a) {
+Eigen::MatrixXd dense(const GridOperator<double>& a) {
   Eigen::MatrixXd m(a.size(), a.size());
   Eigen::VectorXd column;
   for (std::int32_t i = 0; i < a.size(); ++i) {
@@ -47,7 +47,7 @@ TEST(GridOperator, EqualsAssembly) {
         expected(piece.dof[static_cast<std::size_t>(i)], piece.dof[static_cast<std::size_t>(j)]) +=
             e(i, j);
   }
-  const GridOperator a(level, {lambda, k, 0.0}, 1.0);
+  const GridOperator<double> a(level, {lambda, k, 0.0}, 1.0);
   const Eigen::MatrixXd found = dense(a);
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_LT((found.diagonal() - a.diagonal()).cwiseAbs().maxCoeff(), 1e-13);
@@ -56,7 +56,8 @@ TEST(GridOperator, EqualsAssembly) {
 TEST(GridOperator, PenaltyIsSymmetricAndBlindToLinearFields) {
   const auto g = geometry(Sphere{Vec3(0.01, 0.02, 0.03), 1.0}, 0.23);
   const Level& level = g->finest();
-  const GridOperator with(level, {1.0, 0.4, 0.5}, 1.0), without(level, {1.0, 0.4, 0.0}, 1.0);
+  const GridOperator<double> with(level, {1.0, 0.4, 0.5}, 1.0),
+      without(level, {1.0, 0.4, 0.0}, 1.0);
   const Eigen::MatrixXd penalty = dense(with) - dense(without);
   EXPECT_GT(penalty.norm(), 0.1);
   EXPECT_LT((penalty - penalty.transpose()).cwiseAbs().maxCoeff(), 1e-13);
@@ -72,9 +73,28 @@ TEST(GridOperator, PenaltyIsSymmetricAndBlindToLinearFields) {
   EXPECT_LT((penalty * linear).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+// In float and scaled: the same matrix to the rounding of its entries.
+TEST(GridOperator, FloatIsTheSame) {
+  const auto g = geometry(torus(1.0, 0.4, 40, 20), 0.06);
+  const GridOperator<double> a(g->finest(), {2.0, 0.1}, 1.0);
+  const GridOperator<float> b(a, 3.0);
+  const Eigen::VectorXd x = random_vector(a.size(), 3);
+  Eigen::VectorXd Ax;
+  Eigen::VectorXf Bx;
+  a.apply(x, Ax);
+  b.apply(x.cast<float>(), Bx);
+  EXPECT_LT((3.0 * Ax - Bx.cast<double>()).norm(), 1e-6 * (3.0 * Ax).norm());
+  EXPECT_LT((3.0 * a.diagonal() - b.diagonal().cast<double>()).norm(),
+            1e-6 * (3.0 * a.diagonal()).norm());
+  // What y held before does not matter.
+  Eigen::VectorXf again = Eigen::VectorXf::Constant(Bx.size(), 7.0F);
+  b.apply(x.cast<float>(), again);
+  EXPECT_EQ(again, Bx);
+}
+
 TEST(GridOperator, SymmetricOnATorus) {
   const auto g = geometry(torus(1.0, 0.4, 40, 20), 0.06);
-  const GridOperator a(g->finest(), {2.0, 0.1}, 1.0);
+  const GridOperator<double> a(g->finest(), {2.0, 0.1}, 1.0);
   const Eigen::VectorXd x = random_vector(a.size(), 1), y = random_vector(a.size(), 2);
   Eigen::VectorXd Ax, Ay;
   a.apply(x, Ax);

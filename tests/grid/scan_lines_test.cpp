@@ -29,7 +29,7 @@ TEST(ScanLines, VolumeOfATiltedTorus) {
   }
 }
 
-// Ends lie on the sphere; a line has at most one part.
+// Ends lie on the sphere, up to the facets' h^2 / 8R; a line has at most one part.
 TEST(ScanLines, SphereEnds) {
   const Shape shape = Sphere{Vec3(0.1, 0.2, 0.3), 1.0};
   const CellGrid grid = grid_around(shape, 0.125);
@@ -41,7 +41,7 @@ TEST(ScanLines, SphereEnds) {
       for (const Interval& part : lines.line(i, j)) {
         ++met;
         for (const double t : {part.begin, part.end})
-          EXPECT_NEAR((Vec3((i + 0.5) / 4, (j + 0.5) / 4, t) - center).norm(), 8.0, 0.01);
+          EXPECT_NEAR((Vec3((i + 0.5) / 4, (j + 0.5) / 4, t) - center).norm(), 8.0, 1.0 / 64.0);
       }
   EXPECT_NEAR(met, pi * 64 * 16, 0.01 * pi * 64 * 16);
 }
