@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
+#include "core/clock.h"
 #include "trace/camera_rays.h"
 
 namespace knotlight {
 namespace {
 
 constexpr std::size_t pixels_per_chunk = 256;  // small enough to balance a few cores at the end
-
-double cpu_seconds_now() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 }  // namespace
 
@@ -37,7 +33,7 @@ Spectrum PathFilm::variance(std::size_t pixel) const {
 
 void add_samples(PathFilm& film, const PathTracer& tracer, const Camera& camera, std::uint64_t seed,
                  std::uint64_t count, const Workers& workers, Stage& stage) {
-  const double start = cpu_seconds_now();
+  const double start = cpu_seconds();
   const CameraRays rays(camera);
   const std::size_t pixels = film.sum.size();
   workers.for_chunks(
@@ -58,7 +54,7 @@ void add_samples(PathFilm& film, const PathTracer& tracer, const Camera& camera,
         stage.advance((end - begin) * count);
       });
   film.samples += count;
-  film.cpu_seconds += cpu_seconds_now() - start;
+  film.cpu_seconds += cpu_seconds() - start;
 }
 
 double relative_noise(const PathFilm& film) {

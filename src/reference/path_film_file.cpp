@@ -14,7 +14,7 @@
 namespace knotlight {
 namespace {
 
-constexpr char magic[] = "knotlight reference film 1\n";
+constexpr char magic[] = "knotlight reference film 2\n";
 
 // The part of fixed size, after the magic words and before the two planes of sums.
 struct Header {

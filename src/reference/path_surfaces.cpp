@@ -4,9 +4,14 @@
 #include <cmath>
 
 #include "core/convexity.h"
+#include "core/fresnel.h"
 
 namespace knotlight {
 namespace {
+
+// Normals this near to each other are those of one mirror: far above rounding, far below the angles
+// between the planes of a shape that has few.
+constexpr double same_mirror = 1e-6;
 
 bool contains(const Bounds& box, const Vec3& p, double slack) {
   return (p.array() >= box.lo.array() - slack).all() && (p.array() <= box.hi.array() + slack).all();
@@ -129,6 +134,23 @@ std::optional<Hit> PathSurfaces::next_inside(const PathRay& ray, double distance
     if (auto hit = caster_.nearest({ray.position, ray.direction, limit}, other)) first = hit;
   }
   return first;
+}
+
+bool PathSurfaces::open(const PathRay& start, const RefractedWay& way) const {
+  PathRay ray = start;
+  ray.direction = way.start;
+  double left = way.length;
+  for (int i = 0;; ++i) {
+    const auto hit = next(ray, left + touch_);
+    if (!hit || hit->object != ray.medium) return false;
+    left -= hit->t;
+    if (i == way.mirrors) return left <= touch_;
+    const Vec3& normal = way.mirror_normals[static_cast<std::size_t>(i)];
+    if ((hit->normal - normal).norm() > same_mirror) return false;
+    ray.position = hit->position;
+    ray.surface = ray.medium;
+    ray.direction = reflect(ray.direction, normal);
+  }
 }
 
 bool PathSurfaces::plausible(const Vec3& p, std::uint32_t medium) const {

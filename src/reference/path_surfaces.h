@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "reference/refracted_ways.h"
 #include "scene/scene.h"
 #include "trace/ray_caster.h"
 
@@ -32,6 +33,10 @@ class PathSurfaces {
   // diffuse object before it. The hit's t is the distance from ray.position, its normal outward.
   std::optional<Hit> next(const PathRay& ray,
                           double distance = std::numeric_limits<double>::infinity()) const;
+
+  // Whether light can go that way from `start`, which is in the medium that it was refracted into,
+  // up to the crossing: off its mirrors and past nothing else.
+  bool open(const PathRay& start, const RefractedWay& way) const;
 
   // Whether p is where light in that medium can be; false if rounding let a path slip out.
   bool plausible(const Vec3& p, std::uint32_t medium) const;

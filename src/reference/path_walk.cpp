@@ -499,25 +499,20 @@ void PathWalker<C>::refracted_next_event(const Path<C>& path, const PathVertex<C
                                          Sample& sample) const {
   const std::uint32_t object = path.ray.medium;
   const double index2 = optics_[object].ior * optics_[object].ior;
-  const double slack = surfaces_.touching_distance();
   // emission(way): intensity of a light at a place, irradiance across the beam of one at infinity;
   // of an extended light that of its sample, and the density of that per area across the way at a
   // place, per solid angle at infinity (0: not extended).
-  const auto add = [&](const LightPlace& place, const auto& emission) {
+  const auto add = [&](const LightPlace& place, const auto& emission, bool mirrored) {
     sample.ways.clear();
     refracting_[object]->find(path.ray.position, place, sample.ways);
+    if (mirrored)
+      refracting_[object]->find_mirrored(
+          path.ray.position, place, optics_[object].sigma_t.minCoeff(), sample.rng, sample.ways);
     for (const RefractedWay& way : sample.ways) {
       const std::pair<Channels<C>, double> emitted = emission(way);
-      const Channels<C> value = vertex.value(way.inside);
-      if (!((value * emitted.first).maxCoeff() > 0.0)) continue;
-      PathRay ray = path.ray;
-      ray.direction = way.inside;
-      const auto hit = surfaces_.next(ray, way.length + slack);
-      if (!hit || hit->object != object || hit->t < way.length - slack) continue;
-      ray.position = way.crossing;
-      ray.direction = way.outside;
-      ray.surface = object;
-      ray.inside = false;
+      const Channels<C> value = vertex.value(way.start);
+      if (!((value * emitted.first).maxCoeff() > 0.0) || !surfaces_.open(path.ray, way)) continue;
+      const PathRay ray{way.crossing, way.outside, false, object, object};
       const auto outer_depth = depth(ray, way.outer_length);
       if (!outer_depth) continue;
       const Channels<C> left = (-optics_[object].sigma_t * way.length - *outer_depth).exp();
@@ -531,28 +526,32 @@ void PathWalker<C>::refracted_next_event(const Path<C>& path, const PathVertex<C
   const auto always = [](const Channels<C>& emitted) {
     return [&emitted](const RefractedWay&) { return std::pair(emitted, 0.0); };
   };
-  for (const auto& light : lights_.points) add({light.position, false}, always(light.intensity));
+  for (const auto& light : lights_.points)
+    add({light.position, false}, always(light.intensity), true);
   for (const auto& light : lights_.directionals)
-    add({light.towards, true}, always(light.irradiance));
-  // What can be found by chance too is left to chance where a search costs more than it saves.
+    add({light.towards, true}, always(light.irradiance), true);
+  // What can be found by chance too is left to chance where a search costs more than it saves, and
+  // where it has been mirrored.
   if (!refracting_[object]->quick()) return;
   for (const auto& light : lights_.areas) {
     const double s = 2.0 * sample.rng.uniform() - 1.0;
     const double t = 2.0 * sample.rng.uniform() - 1.0;
     const Vec3 place = light.light->center + s * light.light->u + t * light.light->v;
-    add({place, false}, [&light](const RefractedWay& way) {
+    const auto emission = [&light](const RefractedWay& way) {
       const double across = std::max(0.0, -light.normal.dot(way.outside)) * light.area;
       return std::pair(Channels<C>(light.radiance * across), across > 0.0 ? 1.0 / across : 0.0);
-    });
+    };
+    add({place, false}, emission, false);
   }
   for (const auto& sky : lights_.skies) {
     if (sky.map == nullptr) continue;
     const double u = sample.rng.uniform();
     const double v = sample.rng.uniform();
     const EnvironmentMap::Sample drawn = sky.map->sample(u, v);
-    add({drawn.direction, true}, [&](const RefractedWay&) {
+    const auto emission = [&](const RefractedWay&) {
       return std::pair(Channels<C>(sky.seen(drawn.direction) / drawn.pdf), drawn.pdf);
-    });
+    };
+    add({drawn.direction, true}, emission, false);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/fresnel.h"
 #include "core/not_finite.h"
@@ -87,6 +88,24 @@ double crossing_of_plane(double d, double h, double D, double ior) {
   return x;
 }
 
+// Where light is refracted towards p at the plane through `a`; nothing unless p lies below it and
+// the light above.
+std::optional<Vec3> crossing_of(const Vec3& a, const Vec3& normal, const Vec3& p,
+                                const LightPlace& light, double ior) {
+  const double depth = (a - p).dot(normal);
+  const double height = height_over_plane(a, normal, light);
+  if (depth <= 0.0 || height <= 0.0) return std::nullopt;
+  const Vec3 above = p + depth * normal;
+  if (light.at_infinity) {
+    const Vec3 sine = (light.place - height * normal) / ior;
+    return above + depth / std::sqrt(1.0 - sine.squaredNorm()) * sine;
+  }
+  const Vec3 along = light.place - height * normal - above;
+  const double D = along.norm();
+  if (!(D > 0.0)) return above;
+  return above + crossing_of_plane(depth, height, D, ior) / D * along;
+}
+
 double angle_between(const Vec3& unit_a, const Vec3& unit_b) {
   return 2.0 * std::asin(std::min(1.0, 0.5 * (unit_a - unit_b).norm()));
 }
@@ -101,7 +120,8 @@ void add_way(const Vec3& p, const Vec3& crossing, const Vec3& normal, const Ligh
              double ior, double curvature, std::vector<RefractedWay>& ways) {
   const Vec3 in = crossing - p;
   const Vec3 out = light.at_infinity ? light.place : Vec3(light.place - crossing);
-  RefractedWay way{crossing, in.normalized(), out.normalized(), in.norm(), infinity, 0.0, 0.0};
+  const Vec3 inside = in.normalized();
+  RefractedWay way{inside, crossing, inside, out.normalized(), in.norm(), infinity, 0.0, 0.0};
   if (!light.at_infinity) way.outer_length = out.norm();
   const double cos_i = way.outside.dot(normal);
   const double cos_t = way.inside.dot(normal);
@@ -125,6 +145,10 @@ double refracted_gain(double outer_length, double length, double cos_i, double c
   return beam ? 1.0 / spread : 1.0 / (outer_length * outer_length * spread);
 }
 
+double height_over_plane(const Vec3& a, const Vec3& normal, const LightPlace& light) {
+  return light.at_infinity ? light.place.dot(normal) : (light.place - a).dot(normal);
+}
+
 RefractingSurface::RefractingSurface(const Shape& shape, double ior)
     : sphere_(std::get_if<Sphere>(&shape)), ior_(ior) {
   if (sphere_ != nullptr) return;
@@ -145,16 +169,21 @@ RefractingSurface::RefractingSurface(const Shape& shape, double ior)
 
 void RefractingSurface::group_planes(double touching) {
   for (const Facet& facet : facets_) {
-    const bool known = std::any_of(planes_.begin(), planes_.end(), [&](const Facet& plane) {
-      return (facet.normal - plane.normal).norm() <= same_plane &&
-             std::abs((facet.a - plane.a).dot(plane.normal)) <= touching;
+    auto known = std::find_if(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+      return (facet.normal - plane.facet.normal).norm() <= same_plane &&
+             std::abs((facet.a - plane.facet.a).dot(plane.facet.normal)) <= touching;
     });
-    if (known) continue;
-    if (planes_.size() == most_planes) {
-      planes_.clear();
-      return;
+    if (known == planes_.end()) {
+      if (planes_.size() == most_planes) {
+        planes_.clear();
+        return;
+      }
+      known = planes_.insert(planes_.end(), {facet, {}});
     }
-    planes_.push_back(facet);
+    for (const Vec3* corner : {&facet.a, &facet.b, &facet.c}) {
+      known->bounds.extend(*corner - Vec3::Constant(touching));
+      known->bounds.extend(*corner + Vec3::Constant(touching));
+    }
   }
 }
 
@@ -212,7 +241,7 @@ void RefractingSurface::find(const Vec3& p, const LightPlace& light,
     find_on_sphere(p, light, ways);
     return;
   }
-  for (const Facet& plane : planes_) find_on_plane(plane, false, p, light, ways);
+  for (const Plane& plane : planes_) find_on_plane(plane, p, light, ways);
   for (std::uint32_t i = 0; i < nodes_.size();) {
     const Node& node = nodes_[i];
     if (!may_refract(node, p, light)) {
@@ -221,7 +250,7 @@ void RefractingSurface::find(const Vec3& p, const LightPlace& light,
     }
     if (node.last - node.first <= facets_per_leaf)
       for (std::uint32_t k = node.first; k < node.last; ++k)
-        find_on_plane(facets_[k], true, p, light, ways);
+        find_on_facet(facets_[k], p, light, ways);
     i += 1;
   }
 }
@@ -255,32 +284,24 @@ bool RefractingSurface::may_refract(const Node& node, const Vec3& p,
   return touching_sine < 0.0 || sum.dot(node.axis) >= length * (touching_cosine - rounding);
 }
 
-void RefractingSurface::find_on_plane(const Facet& facet, bool within_facet, const Vec3& p,
-                                      const LightPlace& light,
+void RefractingSurface::find_on_facet(const Facet& facet, const Vec3& p, const LightPlace& light,
                                       std::vector<RefractedWay>& ways) const {
-  const double depth = (facet.a - p).dot(facet.normal);
-  const double height =
-      light.at_infinity ? light.place.dot(facet.normal) : (light.place - facet.a).dot(facet.normal);
-  if (depth <= 0.0 || height <= 0.0) return;
-  const Vec3 above = p + depth * facet.normal;
-  Vec3 crossing;
-  if (light.at_infinity) {
-    const Vec3 along = light.place - height * facet.normal;  // sine of the angle outside
-    const Vec3 sine = along / ior_;
-    crossing = above + depth / std::sqrt(1.0 - sine.squaredNorm()) * sine;
-  } else {
-    const Vec3 along = light.place - height * facet.normal - above;
-    const double D = along.norm();
-    crossing = above;
-    if (D > 0.0) crossing += crossing_of_plane(depth, height, D, ior_) / D * along;
-  }
-  if (within_facet) {
-    const Vec3 from_a = crossing - facet.a;
-    const double at_b = from_a.dot(facet.dual_b);
-    const double at_c = from_a.dot(facet.dual_c);
-    if (at_b < 0.0 || at_c < 0.0 || at_b + at_c > 1.0) return;
-  }
-  add_way(p, crossing, facet.normal, light, ior_, 0.0, ways);
+  const auto crossing = crossing_of(facet.a, facet.normal, p, light, ior_);
+  if (!crossing) return;
+  const Vec3 from_a = *crossing - facet.a;
+  const double at_b = from_a.dot(facet.dual_b);
+  const double at_c = from_a.dot(facet.dual_c);
+  if (at_b < 0.0 || at_c < 0.0 || at_b + at_c > 1.0) return;
+  add_way(p, *crossing, facet.normal, light, ior_, 0.0, ways);
+}
+
+void RefractingSurface::find_on_plane(const Plane& plane, const Vec3& p, const LightPlace& light,
+                                      std::vector<RefractedWay>& ways) const {
+  const auto crossing = crossing_of(plane.facet.a, plane.facet.normal, p, light, ior_);
+  if (!crossing || (crossing->array() < plane.bounds.lo.array()).any() ||
+      (crossing->array() > plane.bounds.hi.array()).any())
+    return;
+  add_way(p, *crossing, plane.facet.normal, light, ior_, 0.0, ways);
 }
 
 // In the plane of centre, light (on the first axis) and point: f is the part along the surface of

@@ -10,6 +10,7 @@
 #include "core/fresnel.h"
 #include "core/sampling.h"
 #include "reference/path_surfaces.h"
+#include "reference/refracted_ways.h"
 #include "trace/surroundings.h"
 
 namespace knotlight {
@@ -55,10 +56,22 @@ struct Shares {
   double found = 0.0, unfound = 0.0;
 };
 
+// Per object, whether light that has been refracted into it is found when mirrored inside.
+std::vector<bool> objects_with_mirrors(const Scene& scene) {
+  std::vector<bool> mirrors;
+  for (const Object& object : scene.objects) {
+    const TranslucentMaterial* material = object.translucent();
+    mirrors.push_back(material != nullptr && material->ior != 1.0 &&
+                      RefractingSurface(object.shape, material->ior).finds_mirrored());
+  }
+  return mirrors;
+}
+
 // Follows light to where it is first scattered. Ways that can be found: straight, and one
-// refraction into the object where it is scattered.
-void follow(LampRay lamp, const Scene& scene, const PathSurfaces& surfaces, int channel, Rng& rng,
-            Shares& shares) {
+// refraction into the object where it is scattered, with a few mirrors in some.
+void follow(LampRay lamp, const Scene& scene, const PathSurfaces& surfaces,
+            const std::vector<bool>& has_mirrors, int channel, Rng& rng, Shares& shares) {
+  int mirrors = 0;
   enum class Past { straight, refracted_in, else_where } past = Past::straight;
   PathRay& ray = lamp.ray;
   if (const auto around = surfaces.medium_around(ray.position)) {
@@ -92,10 +105,12 @@ void follow(LampRay lamp, const Scene& scene, const PathSurfaces& surfaces, int 
     const auto refracted = refract(ray.direction, hit->normal, ahead);
     const bool mirrored =
         !refracted || rng.uniform() < fresnel_reflectance(std::abs(facing), ahead);
-    if (mirrored || (ior != 1.0 && (leaving || past != Past::straight)))
-      past = Past::else_where;
-    else if (ior != 1.0)
-      past = Past::refracted_in;
+    if (mirrored) {
+      const bool known = leaving && past == Past::refracted_in && has_mirrors[hit->object];
+      if (!known || ++mirrors > most_mirrors) past = Past::else_where;
+    } else if (ior != 1.0) {
+      past = leaving || past != Past::straight ? Past::else_where : Past::refracted_in;
+    }
     ray.direction = mirrored ? reflect(ray.direction, hit->normal) : *refracted;
     if (!mirrored) ray.inside = !leaving;
   }
@@ -110,6 +125,7 @@ bool has_no_size(const Light& light) {
 
 double unfound_share(const Scene& scene, const RayCaster& caster, std::uint64_t seed) {
   const PathSurfaces surfaces(scene, caster);
+  const std::vector<bool> has_mirrors = objects_with_mirrors(scene);
   std::vector<const Shape*> shapes;
   for (const Object& object : scene.objects) shapes.push_back(&object.shape);
   const Sphere target = sphere_around(shapes);
@@ -122,7 +138,7 @@ double unfound_share(const Scene& scene, const RayCaster& caster, std::uint64_t 
       const LampRay lamp =
           point != nullptr ? leave(*point, target, rng)
                            : leave(std::get<DirectionalLight>(scene.lights[light]), target, rng);
-      follow(lamp, scene, surfaces, static_cast<int>(i) % scene.channels, rng, shares);
+      follow(lamp, scene, surfaces, has_mirrors, static_cast<int>(i) % scene.channels, rng, shares);
     }
   }
   const double all = shares.found + shares.unfound;

@@ -94,7 +94,7 @@ TEST_F(PathFilmTest, WrongFilesAreRefused) {
   EXPECT_TRUE(has(refused(bytes.substr(0, bytes.size() - 9), key), "is damaged"));
   EXPECT_TRUE(has(refused(bytes.substr(0, 30), key), "is cut short"));
   EXPECT_TRUE(has(refused("", key), "is no film of this version"));
-  EXPECT_TRUE(has(refused(replaced(bytes, "film 1", "film 0"), key), "is no film of this version"));
+  EXPECT_TRUE(has(refused(replaced(bytes, "film 2", "film 0"), key), "is no film of this version"));
   std::string flipped = bytes;
   flipped[1000] = static_cast<char>(flipped[1000] ^ 1);
   EXPECT_TRUE(has(refused(flipped, key), "is damaged"));

@@ -192,6 +192,47 @@ TEST(PathTracer, RefractedSingleScattering) {
   }
 }
 
+// The same under a lamp at the height h. Light that leaves it at the angle i from the normal is at
+// the distance x(i) = h tan(i) + d tan(t) from below it at the depth d, sin(i) = n sin(t). Between
+// i and i + di it has the solid angle 2 pi sin(i) di and, across itself, the area 2 pi x cos(t) dx,
+// so that its irradiance is T I sin(i) / (x cos(t) dx/di). Seen straight from above at the distance
+// `aside` from the lamp's foot, the integral along depth is summed by the midpoint rule.
+TEST(PathTracer, RefractedSingleScatteringOfANearLamp) {
+  const double albedo = 1e-4;
+  const double n = 1.45;
+  const double h = 0.7;
+  const double aside = 1.1;
+  const double g = 0.4;
+  const auto inner = [n](double i) { return std::asin(std::sin(i) / n); };
+  constexpr int steps = 4000;
+  const double deepest = 30.0;  // of which exp(-30) comes back
+  double sum = 0.0;
+  for (int k = 0; k < steps; ++k) {
+    const double d = deepest * std::pow((k + 0.5) / steps, 2);
+    const double dd = deepest * (2.0 * k + 1.0) / (static_cast<double>(steps) * steps);
+    double lo = 0.0;
+    double hi = std::atan(aside / h);
+    for (int half = 0; half < 60; ++half) {
+      const double i = 0.5 * (lo + hi);
+      (h * std::tan(i) + d * std::tan(inner(i)) < aside ? lo : hi) = i;
+    }
+    const double t = inner(lo);
+    const double dt = std::cos(lo) / (n * std::cos(t));
+    const double dx = h / std::pow(std::cos(lo), 2) + d * dt / std::pow(std::cos(t), 2);
+    const double irradiance = (1.0 - fresnel_reflectance(std::cos(lo), n)) * std::sin(lo) /
+                              (aside * std::cos(t) * dx) * std::exp(-d / std::cos(t));
+    const double phase =
+        (1.0 - g * g) / (4.0 * pi * std::pow(1.0 + g * g + 2.0 * g * std::cos(t), 1.5));
+    sum += albedo * phase * irradiance * std::exp(-d) * dd;
+  }
+  const double exact = sum * (1.0 - fresnel_reflectance(1.0, n)) / (n * n);
+  const Traced traced(
+      {PointLight{Vec3(0, 0, h), grey(1.0)}},
+      {block(medium(1.0 - albedo, albedo, g, n), Vec3(-40, -40, -40), Vec3(40, 40, 0))});
+  expect_mean(traced.mean(40'000, along(Vec3(aside, 0, 5), -Vec3::UnitZ())), exact,
+              3.0 * albedo * exact);
+}
+
 // A small area light is a point light of intensity radiance times area; the ball is so dense that
 // light mirrored inside before it is scattered, which the point light lacks, is below exp(-14).
 TEST(PathTracer, SmallAreaLightIsAPointLightThroughRefraction) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/fresnel.h"
@@ -18,10 +17,25 @@ using std::numbers::pi;
 
 constexpr double ior = 1.4;
 
-Vec3 random_inside(Rng& rng) {
-  const double u = rng.uniform();
-  const Vec3 w = sample_sphere(u, rng.uniform());
-  return 0.98 * std::cbrt(rng.uniform()) * w;
+struct Pair {
+  Vec3 p;
+  LightPlace light;
+};
+
+// Any point of the inner `within` of the ball, and a beam (even i) or lamp (odd) from anywhere,
+// that nearest to furthest from the centre; all lengths in radii.
+Pair random_pair(std::uint64_t seed, std::uint64_t i, double within, double nearest,
+                 double furthest, const Sphere& ball = {}) {
+  Rng rng(seed, Stream::tests, i);
+  const auto direction = [&rng] {
+    const double u = rng.uniform();
+    return sample_sphere(u, rng.uniform());
+  };
+  const Vec3 p = ball.center + ball.radius * within * std::cbrt(rng.uniform()) * direction();
+  const Vec3 w = direction();
+  const double distance = nearest + (furthest - nearest) * rng.uniform();
+  const bool beam = i % 2 == 0;
+  return {p, {beam ? w : Vec3(ball.center + ball.radius * distance * w), beam}};
 }
 
 // A bumpy closed mesh with normals in all directions, around the unit sphere's size.
@@ -87,15 +101,10 @@ TEST(RefractedWays, ObeySnellAndBeginAndEndWhereTheyShould) {
   const std::vector<Shape> shapes = {Sphere{}, bumpy_mesh()};
   for (const Shape& shape : shapes)
     for (std::uint64_t i = 0; i < 200; ++i) {
-      Rng rng(1, Stream::tests, i);
-      const Vec3 p = 0.8 * random_inside(rng);
-      const bool beam = i % 2 == 0;
-      const double u = rng.uniform();
-      const Vec3 away = sample_sphere(u, rng.uniform());
-      const LightPlace light{beam ? away : Vec3(3.0 * away), beam};
+      const auto [p, light] = random_pair(1, i, 0.8, 3.0, 3.0);
       for (const RefractedWay& way : ways_to(shape, p, light)) {
         EXPECT_NEAR((p + way.length * way.inside - way.crossing).norm(), 0.0, 1e-12);
-        if (!beam) {
+        if (!light.at_infinity) {
           EXPECT_NEAR((way.crossing + way.outer_length * way.outside - light.place).norm(), 0,
                       1e-12);
         }
@@ -116,12 +125,7 @@ TEST(RefractedWays, GainIsThatOfNeighbouringRays) {
   int compared = 0;
   for (const Shape& shape : shapes)
     for (std::uint64_t i = 0; i < 200; ++i) {
-      Rng rng(2, Stream::tests, i);
-      const Vec3 p = 0.8 * random_inside(rng);
-      const bool beam = i % 2 == 0;
-      const double u = rng.uniform();
-      const Vec3 away = sample_sphere(u, rng.uniform());
-      const LightPlace light{beam ? away : Vec3(2.0 * away), beam};
+      const auto [p, light] = random_pair(2, i, 0.8, 2.0, 2.0);
       const bool round = std::holds_alternative<Sphere>(shape);
       for (const RefractedWay& way : ways_to(shape, p, light)) {
         const Vec3 n = (ior * way.inside - way.outside).normalized();
@@ -129,7 +133,7 @@ TEST(RefractedWays, GainIsThatOfNeighbouringRays) {
         // Near grazing rays and foci, differences of rays this far apart mean nothing.
         if (cos_i < 0.2 || way.gain > 3.0) continue;
         const double expected = gain_by_rays(way, light, n, round ? 1.0 : 0.0);
-        EXPECT_NEAR(way.gain, expected, 2e-4 * expected) << "round " << round << " beam " << beam;
+        EXPECT_NEAR(way.gain, expected, 2e-4 * expected) << "round " << round << ", light " << i;
         EXPECT_NEAR(way.transmitted, 1.0 - fresnel_reflectance(cos_i, ior), 1e-12);
         ++compared;
       }
@@ -180,13 +184,11 @@ TEST(RefractedWays, NoneIsMissedOnTheSphere) {
   const Sphere sphere{Vec3(0.1, 0.2, 0.3), 1.3};
   int several = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
-    Rng rng(4, Stream::tests, i);
-    const Vec3 p = sphere.center + sphere.radius * random_inside(rng);
-    const bool beam = i % 2 == 0;
-    const double u = rng.uniform();
-    const Vec3 w = sample_sphere(u, rng.uniform());
-    const double away = sphere.radius * (1.02 + 3.0 * rng.uniform());
-    const LightPlace light{beam ? w : Vec3(sphere.center + away * w), beam};
+    const auto [p, light] = random_pair(4, i, 0.98, 1.02, 4.02, sphere);
+    const bool beam = light.at_infinity;
+    const Vec3 to_light = beam ? light.place : Vec3(light.place - sphere.center);
+    const double away = to_light.norm();
+    const Vec3 w = to_light / away;
     const Vec3 from_center = p - sphere.center;
     const Vec3 side = (from_center - from_center.dot(w) * w).normalized();
     const double end = beam ? 0.5 * pi : std::acos(sphere.radius / away);
@@ -218,12 +220,7 @@ TEST(RefractedWays, TreeFindsWhatEachFacetFinds) {
   EXPECT_FALSE(tree.quick());
   std::size_t found = 0;
   for (std::uint64_t i = 0; i < 20; ++i) {
-    Rng rng(5, Stream::tests, i);
-    const Vec3 p = 0.8 * random_inside(rng);
-    const bool beam = i % 2 == 0;
-    const double u = rng.uniform();
-    const Vec3 w = sample_sphere(u, rng.uniform());
-    const LightPlace light{beam ? w : Vec3(2.5 * w), beam};
+    const auto [p, light] = random_pair(5, i, 0.8, 2.5, 2.5);
     std::vector<RefractedWay> ways;
     tree.find(p, light, ways);
     std::size_t expected = 0;
@@ -234,7 +231,7 @@ TEST(RefractedWays, TreeFindsWhatEachFacetFinds) {
       const Shape single = TriangleMesh{{a, b, c}, {Triangle{0, 1, 2}}};
       const Vec3 normal = (b - a).cross(c - a);
       for (const RefractedWay& way : ways_to(single, p, light)) {
-        // A single facet is one of few planes, so its ways are those of the plane.
+        // A single facet is one of few planes, so its ways are those of its bounds on the plane.
         const bool within = normal.dot((b - a).cross(way.crossing - a)) >= 0.0 &&
                             normal.dot((c - b).cross(way.crossing - b)) >= 0.0 &&
                             normal.dot((a - c).cross(way.crossing - c)) >= 0.0;
