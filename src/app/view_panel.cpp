@@ -322,7 +322,10 @@ void draw_solver(ViewSession& session) {
   bool changed = edit_choices(solver, session.view(), exitance_changed);
   changed |= drag_number("tolerance", solver.tolerance, relative_speed * solver.tolerance,
                          least_tolerance, most_tolerance);
-  changed |= edit_count("photons", solver.photons, least_photons, most_photons);
+  if (edit_count("photons", solver.photons, least_photons, most_photons)) {
+    solver.photons_at_most = false;
+    changed = true;
+  }
   if (changed || exitance_changed)
     session.edit(changed ? Change::materials : Change::exitance,
                  [&](Scene& scene) { scene.solver = solver; });

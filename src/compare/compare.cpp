@@ -140,6 +140,7 @@ void write_tables(const Comparison& c, const std::filesystem::path& folder) {
 // them, which most models do not have.
 void choose_for_comparison(Scene& scene) {
   scene.solver.diffusion = Diffusion::p1;
+  scene.solver.photons_at_most = false;
   const bool refracts =
       std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
         return object.translucent() != nullptr && object.translucent()->ior != 1.0;

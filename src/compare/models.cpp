@@ -1,42 +1,16 @@
 #include "compare/models.h"
 
-#include <malloc.h>
-
-#include <fstream>
 #include <functional>
-#include <limits>
 
+#include "core/clock.h"
 #include "core/errors.h"
+#include "core/memory_peak.h"
 #include "pipeline/render_scene.h"
 
 namespace knotlight {
 namespace {
 
 constexpr std::size_t points_per_chunk = 512;
-
-// A line of /proc/self/status such as "VmHWM:  1234 kB", in MiB; NaN if there is none.
-double status_MiB(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind(key + ":", 0) == 0) return std::stod(line.substr(key.size() + 1)) / 1024.0;
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-// Peak memory from here on. The peak that the system keeps belongs to the whole process; it is set
-// back to what is in use now (Linux: "5" into clear_refs).
-class MemoryPeak {
- public:
-  MemoryPeak() {
-    malloc_trim(0);  // what earlier runs freed is not in use
-    std::ofstream reset("/proc/self/clear_refs");
-    reset << "5" << std::flush;
-    before_ = reset ? status_MiB("VmRSS") : std::numeric_limits<double>::quiet_NaN();
-  }
-  double MiB() const { return status_MiB("VmHWM") - before_; }
-
- private:
-  double before_;
-};
 
 double seconds_of(const Stages& stages, const std::string& name) {
   double sum = 0.0;
@@ -64,7 +38,7 @@ Eigen::VectorXd in_chunks(
 ModelRun run_model(PreparedScene& prepared, const SolverSettings& settings, std::uint64_t seed,
                    bool picture, const RunContext& run) {
   ModelRun result;
-  result.model = settings.source.value();
+  result.model = settings.source.value_or(SourceModel::photon_map);
   const SolverSettings own = prepared.scene.solver;
   prepared.scene.solver = settings;
   RunOptions options = run.options;
@@ -73,8 +47,12 @@ ModelRun run_model(PreparedScene& prepared, const SolverSettings& settings, std:
   RunContext seeing(run.options, false);
   const MemoryPeak memory;
   try {
+    const double start = cpu_seconds();
     result.solved = solve_scene(prepared, solving);
+    result.cost.cpu = cpu_seconds() - start;
+    result.model = result.solved->plan.source;
     if (picture) result.picture = take_picture(prepared, *result.solved, seeing);
+    result.cost.picture_cpu = cpu_seconds() - start - result.cost.cpu;
   } catch (const InputError& error) {
     result.cannot = error.what();
   }

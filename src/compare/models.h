@@ -10,10 +10,12 @@
 namespace knotlight {
 
 struct ModelCost {
-  double light = 0.0;    // seconds: photons, irradiance samples
-  double grid = 0.0;     // seconds: cells
-  double solve = 0.0;    // seconds, with the checks
-  double picture = 0.0;  // seconds
+  double light = 0.0;        // seconds: photons, irradiance samples
+  double grid = 0.0;         // seconds: cells
+  double solve = 0.0;        // seconds, with the checks
+  double picture = 0.0;      // seconds
+  double cpu = 0.0;          // CPU seconds of all threads, to the solution
+  double picture_cpu = 0.0;  // CPU seconds of the picture alone
   double memory = 0.0;  // MiB at the peak, beyond what was in use before; NaN where the system does
                         // not tell
 
@@ -30,7 +32,7 @@ struct ModelRun {
   bool ran() const { return solved.has_value(); }
 };
 
-// Solves the scene with `settings`, whose source must be set, and puts the scene's own settings
+// Solves the scene with `settings`, and puts the scene's own settings
 // back. A model that the settings do not allow (InputError) gives a run with `cannot`. seed: of the
 // light; the picture is taken with that of `run`, so that the noise of all pictures is alike.
 ModelRun run_model(PreparedScene& prepared, const SolverSettings& settings, std::uint64_t seed,

@@ -35,6 +35,7 @@ Report inspect_scene(const std::string& path, bool audit, RunContext& run, Scene
   if (audit) {
     TracerOptions options;
     options.photons = std::min(scene.solver.photons, most_audit_photons);
+    report.photons_emitted = options.photons;
     options.seed = run.options.seed;
     options.orders = TracerOptions::Orders::all;
     options.store = false;

@@ -129,6 +129,7 @@ Report probe_scene(const std::string& path, const std::string& points_csv,
   PreparedScene prepared = prepare_scene(path, run);
   // Beyond P1 the solution is only a part of U_d, which pictures complete while they gather.
   prepared.scene.solver.diffusion.reset();
+  prepared.scene.solver.photons_at_most = false;  // U_ri at single points wants all of them
   SolvedScene solved = solve_scene(prepared, run, true);
   const auto maps = first_light_maps(prepared, solved, run);
   if (solved.plan.source != SourceModel::photon_map && !enough_photons(prepared.scene))

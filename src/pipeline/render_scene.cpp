@@ -22,7 +22,7 @@ Metadata render_metadata(const Scene& scene, const std::string& path, const Repo
       metadata.end(),
       {{"knotlight:exitance", name_of(chosen_exitance(scene.solver))},
        {"knotlight:boundary", scene.solver.boundary == Boundary::milne ? "milne" : "marshak"},
-       {"knotlight:photons", fmt::format("{}", scene.solver.photons)},
+       {"knotlight:photons", fmt::format("{}", report.photons_emitted)},
        {"knotlight:tolerance", fmt::format("{}", scene.solver.tolerance)}});
   for (const ObjectReport& object : report.objects)
     metadata.emplace_back("knotlight:method:" + object.name, object.method);

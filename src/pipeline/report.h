@@ -45,6 +45,7 @@ struct ObjectReport {
 };
 
 struct Report {
+  std::size_t photons_emitted = 0;    // per channel; none with the other source models
   std::vector<ObjectReport> objects;  // the translucent ones, in scene order
   std::vector<std::string> failures;  // checks that failed, one sentence each; empty = trusted
 };

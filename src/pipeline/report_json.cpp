@@ -95,7 +95,7 @@ std::string report_json(const std::string& command, const Report& report, const 
   json["channels"] = scene.channels;
   json["seed"] = run.options.seed;
   json["threads"] = run.workers.threads();
-  json["photons_emitted"] = scene.solver.photons;
+  json["photons_emitted"] = report.photons_emitted;
   json["tolerance"] = scene.solver.tolerance;
   json["objects"] = Json::array();
   double worst = 0.0;

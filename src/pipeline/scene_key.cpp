@@ -21,16 +21,16 @@ std::uint64_t hash_of(const BkmThesisSettings& settings) {
 }
 
 void add_settings(std::vector<KeyPart>& key, const SolverSettings& settings) {
-  const auto& [tolerance, source, method, boundary, exitance, diffusion, photons, knots, thesis,
-               estimate_photons, divergence, deposits, irradiance_samples, returning_light,
-               similarity, estimator, estimate_radius] = settings;
+  const auto& [tolerance, source, method, boundary, exitance, diffusion, photons, photons_at_most,
+               knots, thesis, estimate_photons, divergence, deposits, irradiance_samples,
+               returning_light, similarity, estimator, estimate_radius] = settings;
   key.push_back({"solver.tolerance", SceneHash::of(tolerance)});
   key.push_back({"solver.source", SceneHash::of(source)});
   key.push_back({"solver.method", SceneHash::of(method)});
   key.push_back({"solver.boundary", SceneHash::of(boundary)});
   key.push_back({"solver.diffusion (left out: the one that goes with the exitance)",
                  SceneHash::of(diffusion)});
-  key.push_back({"solver.photons", SceneHash::of(photons)});
+  key.push_back({"solver.photons", SceneHash::of(photons, photons_at_most)});
   key.push_back({"solver.knots", SceneHash::of(knots)});
   key.push_back({"solver's keys of bkm_thesis", hash_of(thesis)});
   key.push_back({"solver.estimate_photons", SceneHash::of(estimate_photons)});

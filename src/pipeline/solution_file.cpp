@@ -72,8 +72,8 @@ void members(Archive& archive, ObjectReport& report) {
 
 template <class Archive>
 void members(Archive& archive, Report& report) {
-  auto& [objects, failures] = report;
-  archive(objects, failures);
+  auto& [photons_emitted, objects, failures] = report;
+  archive(photons_emitted, objects, failures);
 }
 
 template <class Archive>
@@ -102,7 +102,7 @@ void members(Archive& archive, StoredSolution& solution) {
 
 namespace {
 
-constexpr char magic[] = "knotlight solution 1\n";  // the number changes with the format
+constexpr char magic[] = "knotlight solution 2\n";  // the number changes with the format
 constexpr std::size_t magic_size = sizeof(magic) - 1;
 constexpr char program[] = "knotlight " KNOTLIGHT_VERSION;
 

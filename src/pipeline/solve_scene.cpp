@@ -8,6 +8,7 @@
 
 #include "pipeline/beyond_p1.h"
 #include "pipeline/grid_load.h"
+#include "pipeline/photon_budget.h"
 #include "pipeline/plan.h"
 #include "pipeline/solve_grid.h"
 #include "trace/overlap.h"
@@ -72,6 +73,19 @@ bool scatters_anisotropically(const PreparedScene& prepared) {
                      });
 }
 
+// Whether the number of photons was left open, and nothing looks at them but the solver, which
+// evens out their noise: density estimates do not.
+bool may_save_photons(const PreparedScene& prepared, const Plan& plan) {
+  const SolverSettings& solver = prepared.scene.solver;
+  if (!solver.photons_at_most || plan.source != SourceModel::photon_map) return false;
+  for (std::size_t i = 0; i < plan.methods.size(); ++i) {
+    const double ior = prepared.scene.objects[prepared.translucent[i]].translucent()->ior;
+    if (plan.methods[i].method == Method::bkm_thesis || (solver.diffusion && ior != 1.0))
+      return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<PreparedScene> similar_scene(const PreparedScene& prepared) {
@@ -91,10 +105,22 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
                         bool keep_light) {
   if (const auto similar = similar_scene(prepared))
     return solve_scene(*similar, run, factors, keep_light);
+  const Plan plan = make_plan(prepared);
+  if (may_save_photons(prepared, plan)) {
+    const std::size_t most = prepared.scene.solver.photons;
+    Scene fewer = prepared.scene;
+    fewer.solver.photons_at_most = false;
+    fewer.solver.photons = first_photons(most);
+    SolvedScene first = solve_scene(prepare_scene(fewer), run, factors, keep_light);
+    const std::size_t needed =
+        photons_needed(first.report, fewer.solver.photons, most, fewer.solver.tolerance);
+    if (needed <= fewer.solver.photons) return first;
+    fewer.solver.photons = needed;  // the systems are factored already
+    return solve_scene(prepare_scene(std::move(fewer)), run, factors, keep_light);
+  }
   const Scene& scene = prepared.scene;
   const auto channels = static_cast<std::size_t>(scene.channels);
 
-  const Plan plan = make_plan(prepared);
   std::vector<std::vector<IncidentLight>> light;  // [channel][translucent object]
   {
     Stage stage(run.stages, "photons", incident_light_work(prepared, plan.source) * channels);
@@ -169,6 +195,7 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
 
   SolvedScene result;
   result.plan = plan;
+  if (plan.source == SourceModel::photon_map) result.report.photons_emitted = scene.solver.photons;
   if (keep_light) result.light = std::move(light);
   if (plan.source != SourceModel::photon_map)
     for (const std::string& lamp : lamps_inside(prepared))

@@ -118,6 +118,7 @@ struct SolverSettings {
   std::optional<Exitance> exitance;
   std::optional<Diffusion> diffusion;
   std::size_t photons = 2'000'000;   // emitted towards the translucent objects, per channel
+  bool photons_at_most = false;      // fewer will do if their noise allows (pipeline/photon_budget)
   std::optional<std::size_t> knots;  // on the boundary of each object
   BkmThesisSettings thesis;
   std::optional<std::size_t> estimate_photons;  // nearest photons in a density estimate

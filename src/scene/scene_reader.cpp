@@ -27,6 +27,7 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   const auto materials =
       read_materials(require(root, "materials", "a map of materials by name"), context);
   scene.objects = read_objects(require(root, "objects", "a list of objects"), materials, context);
+  scene.solver.photons_at_most = true;  // as without the key `photons`
   if (const YamlNode* solver = root.find("solver")) scene.solver = read_solver(*solver);
 
   if (!anything_shines(scene)) {

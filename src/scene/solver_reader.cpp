@@ -88,7 +88,11 @@ SolverSettings read_solver(const YamlNode& node) {
   if (const auto* key = node.find("exitance")) solver.exitance = read_choice(*key, exitances);
   if (const auto* key = node.find("diffusion")) solver.diffusion = read_choice(*key, diffusions);
   solver.photons = default_photons(solver.tolerance);
-  if (const auto* key = node.find("photons")) solver.photons = read_count(*key, 1, max_photons);
+  solver.photons_at_most = true;
+  if (const auto* key = node.find("photons")) {
+    solver.photons = read_count(*key, 1, max_photons);
+    solver.photons_at_most = false;
+  }
   if (const auto* key = node.find("knots")) {
     solver.knots = read_count(*key, min_knots, max_knots);
   }

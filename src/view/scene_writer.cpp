@@ -132,7 +132,8 @@ void put_solver(YamlNode& document, const SolverSettings& before, const SolverSe
   put_choice<Boundary>(changed, "boundary", before.boundary, after.boundary);
   put_choice(changed, "exitance", before.exitance, after.exitance);
   // Left out it would follow the tolerance.
-  if (before.photons != after.photons || before.tolerance != after.tolerance)
+  if (before.photons != after.photons || before.photons_at_most != after.photons_at_most ||
+      before.tolerance != after.tolerance)
     set(changed, "photons", scalar(fmt::format("{}", after.photons)));
   if (!was_empty || !changed.items.empty()) set(document, "solver", std::move(changed));
 }

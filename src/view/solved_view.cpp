@@ -34,6 +34,7 @@ void finish(SolvedView& view, PreparedScene prepared, RunContext& run) {
 SolverSettings preview_of(const SolverSettings& settings, const PreviewSettings& preview) {
   SolverSettings chosen = settings;
   chosen.photons = std::min(settings.photons, preview.photons);
+  chosen.photons_at_most = false;
   chosen.tolerance = std::max(settings.tolerance, preview.tolerance);
   return chosen;
 }
