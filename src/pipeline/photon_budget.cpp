@@ -7,10 +7,21 @@ namespace {
 
 constexpr std::size_t first_share = 16;
 constexpr std::size_t least_photons = 20'000;  // with fewer nothing is trusted
-// Beside the error of the cells, which is about as large, this is hardly to be noticed.
-constexpr double noise_accepted = 0.5;  // of the tolerance
-// Aimed at where that is exceeded: the noise of two halves is known to some 30 %.
-constexpr double noise_wanted = 0.35;
+// Noise that is hardly to be noticed beside the tolerance, or beside the error of the cells where
+// that is larger.
+constexpr double noise_accepted = 0.5;
+// Aimed at where that is exceeded; what the first try makes of noise is itself noisy.
+constexpr double noise_wanted = 0.85;  // of what is accepted
+// So much of larger errors of the cells counts, in tolerances: three of them in all are not
+// trusted.
+constexpr double largest_error = 1.5, largest_sum = 2.5;
+
+double accepted(const ChannelReport& channel, double tolerance) {
+  const double error = channel.numerical_error;
+  const double noise = noise_accepted * std::clamp(error, tolerance, largest_error * tolerance);
+  const double room = largest_sum * tolerance - error;
+  return std::min(noise, std::max(room, noise_wanted * noise_accepted * tolerance));
+}
 
 }  // namespace
 
@@ -20,13 +31,15 @@ std::size_t first_photons(std::size_t most) {
 
 std::size_t photons_needed(const Report& solution, std::size_t tried, std::size_t most,
                            double tolerance) {
-  double noise = 0.0;
+  double excess = 0.0;  // the largest noise, over what is accepted
   for (const ObjectReport& object : solution.objects)
-    for (const ChannelReport& channel : object.channels)
-      noise = noise >= channel.noise ? noise : channel.noise;  // not-a-number stays
-  if (noise <= noise_accepted * tolerance) return tried;
-  const double ratio = noise / (noise_wanted * tolerance);
-  const double wanted = static_cast<double>(tried) * ratio * ratio;
+    for (const ChannelReport& channel : object.channels) {
+      const double own = channel.noise / accepted(channel, tolerance);
+      excess = excess >= own ? excess : own;  // not-a-number stays
+    }
+  if (excess <= 1.0) return tried;
+  const double wanted =
+      static_cast<double>(tried) * excess * excess / (noise_wanted * noise_wanted);
   return wanted < static_cast<double>(most) ? static_cast<std::size_t>(wanted) : most;
 }
 

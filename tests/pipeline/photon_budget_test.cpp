@@ -53,21 +53,21 @@ TEST(PhotonBudget, MoreWhereThereIsMoreNoise) {
 }
 
 TEST(PhotonBudget, NoiseFallsAsTheRootAtLeast) {
-  Report report;
-  const auto noise = [&](double value) {
+  const auto needed = [](double noise, double numerical_error) {
+    Report report;
     report.objects = {ObjectReport{}};
     report.objects[0].channels.resize(2);
     report.objects[0].channels[0].noise = 0.001;
-    report.objects[0].channels[1].noise = value;
+    report.objects[0].channels[1].noise = noise;
+    report.objects[0].channels[1].numerical_error = numerical_error;
+    return photons_needed(report, 1'000, 16'000, 0.01);
   };
-  noise(0.005);
-  EXPECT_EQ(photons_needed(report, 1'000, 16'000, 0.01), 1'000U);
-  noise(0.007);  // twice what is aimed at
-  EXPECT_EQ(photons_needed(report, 1'000, 16'000, 0.01), 4'000U);
-  for (const double much : {1.0, std::nan(""), HUGE_VAL}) {
-    noise(much);
-    EXPECT_EQ(photons_needed(report, 1'000, 16'000, 0.01), 16'000U);
-  }
+  EXPECT_EQ(needed(0.005, 0.0), 1'000U);
+  EXPECT_NEAR(static_cast<double>(needed(0.0085, 0.0)), 4'000.0, 1.0);  // twice what is aimed at
+  for (const double much : {1.0, std::nan(""), HUGE_VAL}) EXPECT_EQ(needed(much, 0.0), 16'000U);
+  // Beside a large error of the cells more is accepted, as long as the sum is trusted.
+  EXPECT_EQ(needed(0.007, 0.015), 1'000U);
+  EXPECT_GT(needed(0.007, 0.024), 1'500U);
   EXPECT_EQ(first_photons(16'000'000), 1'000'000U);
   EXPECT_EQ(first_photons(100'000), 20'000U);
   EXPECT_EQ(first_photons(10'000), 10'000U);
