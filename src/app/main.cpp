@@ -11,6 +11,7 @@
 #include <string>
 
 #include "app/view_window.h"
+#include "chart/chart.h"
 #include "compare/compare.h"
 #include "core/errors.h"
 #include "core/file_io.h"
@@ -25,6 +26,8 @@
 #include "scene/nearest_name.h"
 #include "stability/report.h"
 #include "stability/stability.h"
+#include "study/report.h"
+#include "study/study.h"
 #include "validate/report.h"
 #include "validate/validate.h"
 
@@ -39,9 +42,14 @@ struct CommandLine {
   std::string solution, save_solution;
   bool json_wanted = false;
   std::optional<std::uint64_t> samples;
+  std::vector<std::string> scenes;
+  ChartOptions chart;
+  bool quick_chart = false;
   CompareOptions compare;
   ValidateOptions validate;
   StabilityOptions stability;
+  std::string study, markdown;
+  StudyOptions studies;
   RunOptions options;
 };
 
@@ -138,6 +146,18 @@ int probe(const CommandLine& line, RunContext& run) {
   return judge(report.failures);
 }
 
+// The scenes whose table is in docs/results, seen from the top folder of the repository.
+const std::vector<std::string> charted_scenes = {
+    "scenes/pictures/sphere.yaml", "scenes/pictures/torus.yaml", "scenes/pictures/plate.yaml",
+    "scenes/pictures/bunny.yaml"};
+
+int chart(const CommandLine& line, RunContext& run) {
+  const std::vector<std::string>& scenes = line.scenes.empty() ? charted_scenes : line.scenes;
+  chart_scenes(scenes, line.output, line.quick_chart ? ChartOptions::quick() : line.chart, run);
+  if (!line.options.quiet) fmt::print("{}/index.html\n", line.output);
+  return exit_ok;
+}
+
 int compare(const CommandLine& line, RunContext& run) {
   Scene scene;
   const Report report = compare_scene(line.scene, line.output, line.compare, run, scene);
@@ -180,6 +200,16 @@ int map_stability(const CommandLine& line, RunContext& run) {
     fmt::print("{}{}\n", stability_text(found),
                (std::filesystem::path(line.output) / "stability.html").string());
   return found.broken() == 0 ? exit_ok : exit_failure;
+}
+
+int redo_studies(const CommandLine& line, RunContext& run) {
+  const std::vector<Study> chosen = chosen_studies(line.study);
+  if (!line.markdown.empty()) check_folder_of(line.markdown);
+  make_output_folder(line.output);
+  const std::filesystem::path page =
+      write_studies(run_studies(chosen, line.studies, run), line.output, line.markdown);
+  if (!line.options.quiet) fmt::print("{}\n", page.string());
+  return exit_ok;
 }
 
 // Ctrl-C ends the program at once: files appear by renaming, so only a pending temporary has to go.
@@ -237,6 +267,32 @@ int run_program(int argc, char** argv) {
                   "rays of the photon map per channel, in place of solver.photons; left out: as "
                   "many as bring the noise near the tolerance")
       ->check(CLI::Range(1.0, 5e8));
+  CLI::App& chart_command = *app.add_subcommand(
+      "chart", "error against seconds for every method and setting: tables, charts, one page");
+  chart_command.add_option("scenes", line.scenes,
+                           "scene files (YAML); none: sphere, torus, plate and bunny");
+  chart_command
+      .add_option("--set", line.options.overrides, "override a scene key: path.to.key=value")
+      ->allow_extra_args(false)
+      ->take_all();
+  add_run_options(chart_command, line);
+  chart_command.add_option("-o,--output", line.output, "folder to write to, or to go on in")
+      ->required();
+  chart_command
+      .add_option("--budget", line.chart.budget,
+                  "seconds per scene for settings; a longer one goes on where a shorter one ended")
+      ->check(CLI::Range(1.0, 1e7))
+      ->capture_default_str();
+  chart_command.add_option("--levels", line.chart.levels, "settings per line, coarse to fine")
+      ->check(CLI::Range(1, 6))
+      ->capture_default_str();
+  chart_command.add_option("--repeats", line.chart.repeats, "runs of each setting, for its noise")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  chart_command.add_option("--noise", line.chart.noise, "of the blocks of path tracing, relative")
+      ->check(CLI::Range(1e-4, 1.0))
+      ->capture_default_str();
+  chart_command.add_flag("--quick", line.quick_chart, "two coarse settings per line; seconds");
   CLI::App& validate_command = *app.add_subcommand(
       "validate", "the whole program on cases whose answer is known; exit code 1 if any fails");
   add_run_options(validate_command, line);
@@ -252,6 +308,14 @@ int run_program(int argc, char** argv) {
   stability_command.add_option("-o,--output", line.output, "folder to write to")->required();
   stability_command.add_flag("--quick", line.stability.quick,
                              "a few cells of each map and two scenes; seconds");
+  CLI::App& study_command = *app.add_subcommand(
+      "study", "an experiment of the thesis done again: tables, charts, a page");
+  study_command.add_option("name", line.study, "which one, or all of them: all")->required();
+  add_run_options(study_command, line);
+  study_command.add_option("-o,--output", line.output, "folder to write to")->required();
+  study_command.add_option("--markdown", line.markdown,
+                           "where the page for the repository goes; left out: to that folder");
+  study_command.add_flag("--quick", line.studies.quick, "smaller and fewer; seconds");
   for (CLI::App* command :
        {&render_command, &reference_command, &probe_command, &compare_command, &validate_command})
     command->add_option("--json", line.options.json, "write a summary to this file");
@@ -262,8 +326,8 @@ int run_program(int argc, char** argv) {
                       "standard output if none is named")
           ->expected(0, 1);
 
-  const std::vector<std::string> names = {"render",   "reference", "probe", "compare",
-                                          "validate", "stability", "info",  "view"};
+  const std::vector<std::string> names = {"render",   "reference", "probe", "compare", "chart",
+                                          "validate", "stability", "study", "info",    "view"};
   if (argc < 2)
     throw InputError(
         fmt::format("no command given, expected {} (see knotlight --help)", one_of(names)));
@@ -288,8 +352,10 @@ int run_program(int argc, char** argv) {
   if (reference_command.parsed()) return reference(line, run);
   if (probe_command.parsed()) return probe(line, run);
   if (compare_command.parsed()) return compare(line, run);
+  if (chart_command.parsed()) return chart(line, run);
   if (validate_command.parsed()) return validate_program(line, run);
   if (stability_command.parsed()) return map_stability(line, run);
+  if (study_command.parsed()) return redo_studies(line, run);
   if (view_command.parsed()) return view(line);
   return info(line, run);
 }

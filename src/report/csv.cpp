@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <utility>
+
+#include "core/errors.h"
+
 namespace knotlight {
 
 std::string csv_line(const std::vector<std::string>& fields) {
@@ -25,6 +30,38 @@ std::string csv_text(const std::vector<std::string>& header,
   std::string text = csv_line(header);
   for (const auto& row : rows) text += csv_line(row);
   return text;
+}
+
+std::vector<std::vector<std::string>> read_csv(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path + ": cannot read, expected a table (CSV)");
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> row;
+  std::string field;
+  bool quoted = false;
+  for (char c = 0; in.get(c);) {
+    if (quoted) {
+      if (c != '"')
+        field += c;
+      else if (in.peek() == '"')
+        field += static_cast<char>(in.get());
+      else
+        quoted = false;
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == ',' || c == '\n') {
+      row.push_back(std::exchange(field, {}));
+      if (c == '\n') rows.push_back(std::exchange(row, {}));
+    } else if (c != '\r') {
+      field += c;
+    }
+  }
+  if (quoted) throw InputError(path + ": ends within quotes, expected a whole table (CSV)");
+  if (!row.empty() || !field.empty()) {
+    row.push_back(field);
+    rows.push_back(row);
+  }
+  return rows;
 }
 
 std::string csv_number(double value) {

@@ -185,7 +185,9 @@ TEST_F(CommandLine, NoBarsInAPipe) {
 
 TEST_F(CommandLine, WrongWords) {
   expect_bad_input(run("rendr scene.yaml"), "did you mean 'render'?");
-  expect_bad_input(run(""), "render, reference, probe, compare, validate, stability, info or view");
+  expect_bad_input(
+      run(""),
+      "render, reference, probe, compare, chart, validate, stability, study, info or view");
   expect_bad_input(run("render"), "scene");
   expect_bad_input(run("render scene.yaml --threads -3"), "--threads");
   expect_bad_input(run("render scene.yaml --seed x"), "--seed");

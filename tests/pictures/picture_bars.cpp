@@ -1,5 +1,5 @@
 // How far the pictures of `render` are from path tracing, and what both cost: each scene of
-// tests/pictures/scenes rendered with default settings and by `reference`. Prints a table.
+// scenes/pictures rendered with default settings and by `reference`. Prints a table.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -8,9 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "bars/meshes.h"
 #include "core/file_io.h"
-#include "core/ply_writer.h"
 #include "pipeline/reference_scene.h"
 #include "pipeline/render_scene.h"
 #include "scene/scene_reader.h"
@@ -87,24 +85,17 @@ int run_program(int argc, char** argv) {
   app.add_option("--set", settings, "override a scene key")->allow_extra_args(false)->take_all();
   CLI11_PARSE(app, argc, argv);
   make_output_folder(folder);
-  write_ply((fs::path(folder) / "torus.ply").string(), torus_mesh(), "torus");
   fmt::print(
       "| scene | CPU s | blocks | mean / truth | rms of blocks | noise in it | without it | "
       "reference CPU s | for 1 % per pixel |\n|---|---|---|---|---|---|---|---|---|\n");
   std::vector<fs::path> scenes;
-  for (const auto& entry :
-       fs::directory_iterator(fs::path(KNOTLIGHT_ROOT) / "tests/pictures/scenes"))
+  for (const auto& entry : fs::directory_iterator(fs::path(KNOTLIGHT_ROOT) / "scenes/pictures"))
     if (entry.path().extension() == ".yaml" &&
         entry.path().stem().string().find(only) != std::string::npos)
       scenes.push_back(entry.path());
   std::sort(scenes.begin(), scenes.end());
-  for (const fs::path& original : scenes) {
-    const std::string name = original.stem().string();
-    fs::path path = original;
-    if (name == "torus") {  // beside its mesh
-      path = fs::path(folder) / "torus.yaml";
-      fs::copy_file(original, path, fs::copy_options::overwrite_existing);
-    }
+  for (const fs::path& path : scenes) {
+    const std::string name = path.stem().string();
     RunOptions options;
     options.quiet = true;
     options.overrides = settings;

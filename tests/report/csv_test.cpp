@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/errors.h"
+#include "support/scene_files.h"
+
 #include <cmath>
 #include <limits>
 
@@ -24,6 +27,19 @@ TEST(Csv, NumbersReadBackAsTheSameNumber) {
   EXPECT_EQ(csv_number(0.01), "0.01");
   EXPECT_EQ(csv_number(std::nan("")), "nan");
   EXPECT_EQ(csv_number(std::numeric_limits<double>::infinity()), "inf");
+}
+
+TEST(Csv, ReadsBackWhatItWrites) {
+  const std::vector<std::vector<std::string>> rows = {
+      {"a", "b"}, {"with, comma", "with \"quotes\""}, {"two\nlines", ""}};
+  const test::ScratchFolder folder;
+  const std::string text = csv_text(rows[0], {rows[1], rows[2]});
+  EXPECT_EQ(read_csv(folder.write("a.csv", text)), rows);
+  // Neither the last line's end nor another system's line ends matter.
+  EXPECT_EQ(read_csv(folder.write("b.csv", "x,y\r\n1,2")),
+            (std::vector<std::vector<std::string>>{{"x", "y"}, {"1", "2"}}));
+  EXPECT_THROW(read_csv(folder.write("c.csv", "a,\"b\n")), InputError);
+  EXPECT_THROW(read_csv(folder.path("none.csv")), InputError);
 }
 
 }  // namespace
