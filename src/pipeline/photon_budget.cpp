@@ -1,6 +1,7 @@
 #include "pipeline/photon_budget.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace knotlight {
 namespace {
@@ -17,7 +18,9 @@ constexpr double noise_wanted = 0.85;  // of what is accepted
 constexpr double largest_error = 1.5, largest_sum = 2.5;
 
 double accepted(const ChannelReport& channel, double tolerance) {
-  const double error = channel.numerical_error;
+  // The difference of two grids holds noise too.
+  const double error = std::sqrt(std::max(
+      0.0, channel.numerical_error * channel.numerical_error - channel.noise * channel.noise));
   const double noise = noise_accepted * std::clamp(error, tolerance, largest_error * tolerance);
   const double room = largest_sum * tolerance - error;
   return std::min(noise, std::max(room, noise_wanted * noise_accepted * tolerance));
@@ -34,6 +37,8 @@ std::size_t photons_needed(const Report& solution, std::size_t tried, std::size_
   double excess = 0.0;  // the largest noise, over what is accepted
   for (const ObjectReport& object : solution.objects)
     for (const ChannelReport& channel : object.channels) {
+      // Dark, or hard to find: only more photons can tell.
+      if (channel.photons == 0) return most;
       const double own = channel.noise / accepted(channel, tolerance);
       excess = excess >= own ? excess : own;  // not-a-number stays
     }

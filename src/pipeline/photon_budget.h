@@ -13,7 +13,8 @@ std::size_t first_photons(std::size_t most);
 
 // With how many the noise of every object's solution is small beside the tolerance and the error of
 // the cells, judged by a solution from `tried` of them: noise falls with their number at least as
-// n^-1/2. Between `tried` (they do) and `most`, which it also is where the noise is not known.
+// n^-1/2. Between `tried` (they do) and `most`, which it also is where the
+// noise is not known or an object has met no photon.
 std::size_t photons_needed(const Report& solution, std::size_t tried, std::size_t most,
                            double tolerance);
 

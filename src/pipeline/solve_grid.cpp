@@ -21,6 +21,9 @@ constexpr double lost_allowed = 1e-3;   // share of the sources that found no ce
 // Residual of the linear systems per tolerance: the field's rms error from it was half of it or
 // less, so this is far below the error of the cells. It counts in full in the estimate.
 constexpr double linear_share = 0.03;
+// The halves' difference need not be known any better. It is of the size of a cell: rays of low
+// discrepancy have hardly any smoother noise, and larger cells would not see it.
+constexpr double noise_residual = 0.1;
 
 // The multigrid hierarchies of both grids.
 struct GridFactors {
@@ -41,24 +44,17 @@ std::shared_ptr<const GridFactors> kept_factors(const ChannelProblem& p) {
   return factors;
 }
 
-// On cells of twice the size: the mean of the two halves of the light, and half their difference,
-// which is the noise. It is as smooth as the field, so the smaller cells can do without.
-struct CoarseSolutions {
-  GridSolution mean, noise;
-  bool converged() const { return mean.converged && noise.converged; }
-};
+Eigen::VectorXd mean_of(const std::array<GridLoad, 2>& loads) {
+  return 0.5 * (loads[0].values() + loads[1].values());
+}
 
-CoarseSolutions solve_coarse(const ChannelProblem& p, const GridFactors& factors,
-                             const std::array<GridLoad, 2>& fine_loads, double tolerance) {
-  const auto solve = [&](const std::array<GridLoad, 2>& loads, double second) {
-    const Eigen::VectorXd load = 0.5 * (loads[0].values() + second * loads[1].values());
-    return factors.coarse ? factors.coarse->solve(load, tolerance)
-                          : factors.fine.solve_coarse(load, tolerance);
-  };
-  if (!factors.coarse) return {solve(fine_loads, 1.0), solve(fine_loads, -1.0)};
-  const std::array<GridLoad, 2> loads{incident_load(*p.grids->coarse, p.light.halves[0], p),
-                                      incident_load(*p.grids->coarse, p.light.halves[1], p)};
-  return {solve(loads, 1.0), solve(loads, -1.0)};
+// On cells of twice the size.
+GridSolution solve_coarse(const ChannelProblem& p, const GridFactors& factors,
+                          const std::array<GridLoad, 2>& fine_loads, double tolerance) {
+  if (!factors.coarse) return factors.fine.solve_coarse(mean_of(fine_loads), tolerance);
+  return factors.coarse->solve(mean_of({incident_load(*p.grids->coarse, p.light.halves[0], p),
+                                        incident_load(*p.grids->coarse, p.light.halves[1], p)}),
+                               tolerance);
 }
 
 }  // namespace
@@ -98,26 +94,25 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
   const double tolerance = linear_share * p.settings.tolerance;
   const std::array<GridLoad, 2> loads{incident_load(*grids.fine, p.light.halves[0], p),
                                       incident_load(*grids.fine, p.light.halves[1], p)};
-  const CoarseSolutions coarse = solve_coarse(p, *factors, loads, tolerance);
+  const GridSolution coarse = solve_coarse(p, *factors, loads, tolerance);
   // The coarse field is a start only where its nodes are the fine grid's.
-  const GridSolution mean =
-      factors->fine.solve(Eigen::VectorXd(0.5 * (loads[0].values() + loads[1].values())), tolerance,
-                          factors->coarse ? Eigen::VectorXd() : coarse.mean.field.nodes());
+  const GridSolution mean = factors->fine.solve(
+      mean_of(loads), tolerance, factors->coarse ? Eigen::VectorXd() : coarse.field.nodes());
+  const GridSolution noise = factors->fine.solve(
+      Eigen::VectorXd(0.5 * (loads[0].values() - loads[1].values())), noise_residual);
   const GridField& field = mean.field;
 
   const SurfaceSamples checks = boundary_check_points(p);
   const Eigen::VectorXd u = field.values(checks.positions, checks.normals);
-  const GridErrorEstimate estimate =
-      estimate_error(field, coarse.mean.field, checks.positions, checks.normals,
-                     p.coefficients.lambda * grids.size.h);
+  const GridErrorEstimate estimate = estimate_error(
+      field, coarse.field, checks.positions, checks.normals, p.coefficients.lambda * grids.size.h);
   // Both relative to the rms over the surface.
   solution.numerical_error =
       relative(estimate.rms * estimate.scale, root_mean_square(u)) + mean.residual;
-  solution.noise =
-      relative(root_mean_square(coarse.noise.field.values(checks.positions, checks.normals)),
-               root_mean_square(u));
+  solution.noise = relative(root_mean_square(noise.field.values(checks.positions, checks.normals)),
+                            root_mean_square(u));
 
-  const bool converged = mean.converged && coarse.converged();
+  const bool converged = mean.converged && coarse.converged && noise.converged;
   solution.solved = field.nodes().allFinite() && u.allFinite();
   if (!converged) solution.failures.push_back("the linear solver did not converge");
   if (!solution.solved) solution.failures.push_back("the solution has values that are not finite");
