@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -14,6 +15,7 @@
 #include "core/file_io.h"
 #include "pipeline/scene_key.h"
 #include "report/csv.h"
+#include "scene/scene_hash.h"
 #include "scene/scene_reader.h"
 
 namespace knotlight {
@@ -32,6 +34,9 @@ void check_key(const std::string& file, const PreparedScene& prepared, const Run
                const ChartOptions& options) {
   std::vector<KeyPart> key = solution_key(prepared.scene, run.options.seed);
   key.push_back({"camera, lights, objects", samples_key(prepared.scene, run.options.seed)});
+  key.push_back({"solver.exitance", SceneHash::of(prepared.scene.solver.exitance)});
+  key.push_back({"the program's version", SceneHash::of(std::string(KNOTLIGHT_VERSION))});
+  key.push_back({"noise", SceneHash::of(options.noise)});
   key.push_back({"levels", static_cast<std::uint64_t>(options.levels)});
   key.push_back({"repeats", static_cast<std::uint64_t>(options.repeats)});
   std::vector<std::vector<std::string>> rows;
@@ -53,10 +58,12 @@ void check_key(const std::string& file, const PreparedScene& prepared, const Run
 // Goes through the contenders in order while the budget lasts.
 class Measuring {
  public:
-  Measuring(std::string file, double budget) : file_(std::move(file)), budget_(budget) {
+  Measuring(std::string file, double budget, int repeats)
+      : file_(std::move(file)), budget_(budget) {
     if (!fs::exists(file_)) return;
     measured_ = read_measurements(file_);
-    for (const Measurement& m : measured_) spent(m);
+    for (const Measurement& m : measured_)
+      if (std::isfinite(m.wall_seconds)) last_[m.line] = repeats * m.wall_seconds;
   }
 
   bool has(const Contender& contender) const {
@@ -77,8 +84,6 @@ class Measuring {
   const std::vector<Measurement>& all() const { return measured_; }
 
  private:
-  void spent(const Measurement& m) { last_[m.line] = 2.0 * m.wall_seconds; }
-
   std::string file_;
   double budget_;
   Clock::time_point start_ = Clock::now();
@@ -117,14 +122,15 @@ ChartedScene chart_scene(const std::string& path, const std::string& folder,
   converged.irradiance_samples *= converged_factor;
   const Yardstick by = make_yardstick(prepared, settings, converged, options.noise, folder, run);
 
-  ChartedScene result{fs::path(path).stem().string(),
-                      path,
-                      by.truth_noise,
-                      by.truth_seconds,
-                      options.repeats,
-                      0,
-                      {}};
-  Measuring measuring(in_folder("measurements.csv"), options.budget);
+  ChartedScene result;
+  result.name = fs::path(path).stem().string();
+  result.path = path;
+  result.truth_noise = by.truth_noise;
+  result.truth_seconds = by.truth_seconds;
+  result.repeats = options.repeats;
+  for (const auto& [model, one] : by.models)
+    if (!one.doubt.empty()) result.doubts.push_back(fmt::format("{}: {}", model, one.doubt));
+  Measuring measuring(in_folder("measurements.csv"), options.budget, options.repeats);
   {
     Stage stage(run.stages, "settings", all.size());
     for (const Contender& contender : all) {

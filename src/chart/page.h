@@ -15,6 +15,9 @@ struct ChartedScene {
   double truth_seconds = 0.0;  // CPU
   int repeats = 1;
   std::size_t untried = 0;  // settings that the budget did not reach
+  // Converged runs that are not to be trusted, and why: what is measured against them is not
+  // either.
+  std::vector<std::string> doubts;
   std::vector<Measurement> measurements;
 };
 

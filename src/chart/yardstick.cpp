@@ -61,6 +61,7 @@ PathFilm trace_truth(const PreparedScene& prepared, const PictureBlocks& blocks,
 
 constexpr const char* field_kind = "field";
 constexpr const char* picture_kind = "picture";
+constexpr const char* doubt_kind = "doubt";
 
 std::map<std::string, Converged> read_models(const std::string& file) {
   std::map<std::string, Converged> models;
@@ -68,6 +69,10 @@ std::map<std::string, Converged> read_models(const std::string& file) {
   for (const std::vector<std::string>& row : read_csv(file)) {
     if (row.size() < 2)
       throw InputError(file + ": a row has no name, expected model, kind, values");
+    if (row[1] == doubt_kind) {
+      models[row[0]].doubt = row.back();
+      continue;
+    }
     Eigen::VectorXd values(static_cast<Eigen::Index>(row.size() - 2));
     for (std::size_t i = 2; i < row.size(); ++i)
       values[static_cast<Eigen::Index>(i - 2)] = std::stod(row[i]);
@@ -88,6 +93,7 @@ void write_models(const std::string& file, const std::map<std::string, Converged
   for (const auto& [name, converged] : models) {
     text += csv_line(row_of(name, field_kind, converged.field));
     text += csv_line(row_of(name, picture_kind, converged.picture));
+    if (!converged.doubt.empty()) text += csv_line({name, doubt_kind, converged.doubt});
   }
   write_text_file(file, text);
 }
@@ -148,7 +154,9 @@ Yardstick make_yardstick(PreparedScene& prepared, const std::vector<SolverSettin
     own.knots.reset();
     const ModelRun one = run_model(prepared, own, run.options.seed + converged_seed, true, run);
     Converged& result = by.models[model];
+    result.doubt = one.cannot;
     if (one.ran()) {
+      if (!one.solved->report.failures.empty()) result.doubt = one.solved->report.failures.front();
       if (own.diffusion.value_or(Diffusion::p1) == Diffusion::p1)
         result.field = at_checks(one, prepared, by.checks, run.options.seed, run.workers);
       result.picture = by.blocks.means(*one.picture);

@@ -16,6 +16,7 @@ namespace knotlight {
 struct Converged {
   Eigen::VectorXd field;    // U_d at the checks; empty beyond P1, which solves for a part of it
   Eigen::VectorXd picture;  // block means
+  std::string doubt;        // why it is not to be trusted; empty: it is
 };
 
 struct Yardstick {
