@@ -130,9 +130,9 @@ double without(double a, double b) {
 }
 
 // truth_noise: relative, of `truth`. converged: of the same model; empty: unknown.
-ErrorParts parts(const std::vector<Eigen::VectorXd>& values, const Eigen::VectorXd& truth,
-                 double truth_noise, const Eigen::VectorXd& converged, const Yardstick& by,
-                 Error error) {
+ErrorParts error_parts(const std::vector<Eigen::VectorXd>& values, const Eigen::VectorXd& truth,
+                       double truth_noise, const Eigen::VectorXd& converged, const Yardstick& by,
+                       Error error) {
   ErrorParts result;
   if (values.empty()) return result;
   const auto n = static_cast<double>(values.size());
@@ -190,8 +190,9 @@ Measurement measure(const Contender& contender, PreparedScene& prepared, const Y
   if (contender.maker == Maker::solver)
     if (const auto found = by.models.find(model_of(contender.solver)); found != by.models.end())
       converged = found->second;
-  m.field = parts(fields, by.field(), 0.0, converged.field, by, field_error);
-  m.picture = parts(pictures, by.truth.means, by.truth_noise, converged.picture, by, picture_error);
+  m.field = error_parts(fields, by.field(), 0.0, converged.field, by, field_error);
+  m.picture =
+      error_parts(pictures, by.truth.means, by.truth_noise, converged.picture, by, picture_error);
   return m;
 }
 
