@@ -13,6 +13,10 @@ constexpr std::size_t least_photons = 20'000;  // with fewer nothing is trusted
 constexpr double noise_accepted = 0.5;
 // Aimed at where that is exceeded; what the first try makes of noise is itself noisy.
 constexpr double noise_wanted = 0.85;  // of what is accepted
+// Noise falls as n^-1 on smooth bodies and n^-1/2 behind many edges; a guess that falls short is
+// followed by another.
+constexpr double noise_order = 0.75;
+constexpr double least_growth = 1.5;
 // So much of larger errors of the cells counts, in tolerances: three of them in all are not
 // trusted.
 constexpr double largest_error = 1.5, largest_sum = 2.5;
@@ -43,8 +47,8 @@ std::size_t photons_needed(const Report& solution, std::size_t tried, std::size_
       excess = excess >= own ? excess : own;  // not-a-number stays
     }
   if (excess <= 1.0) return tried;
-  const double wanted =
-      static_cast<double>(tried) * excess * excess / (noise_wanted * noise_wanted);
+  const double growth = std::max(std::pow(excess / noise_wanted, 1.0 / noise_order), least_growth);
+  const double wanted = growth * static_cast<double>(tried);
   return wanted < static_cast<double>(most) ? static_cast<std::size_t>(wanted) : most;
 }
 

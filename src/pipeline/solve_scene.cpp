@@ -111,12 +111,13 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
     Scene fewer = prepared.scene;
     fewer.solver.photons_at_most = false;
     fewer.solver.photons = first_photons(most);
-    SolvedScene first = solve_scene(prepare_scene(fewer), run, factors, keep_light);
-    const std::size_t needed =
-        photons_needed(first.report, fewer.solver.photons, most, fewer.solver.tolerance);
-    if (needed <= fewer.solver.photons) return first;
-    fewer.solver.photons = needed;  // the systems are factored already
-    return solve_scene(prepare_scene(std::move(fewer)), run, factors, keep_light);
+    while (true) {  // the systems are factored once
+      SolvedScene tried = solve_scene(prepare_scene(fewer), run, factors, keep_light);
+      const std::size_t needed =
+          photons_needed(tried.report, fewer.solver.photons, most, fewer.solver.tolerance);
+      if (needed <= fewer.solver.photons) return tried;
+      fewer.solver.photons = needed;
+    }
   }
   const Scene& scene = prepared.scene;
   const auto channels = static_cast<std::size_t>(scene.channels);
