@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "pipeline/plan.h"
+#include "scene/refracts.h"
 
 namespace knotlight {
 namespace {
@@ -26,12 +27,6 @@ constexpr std::array<double, 6> entries = {0.3, 1.0, 3.0, 10.0, 30.0, 100.0};  /
 std::size_t photons_for(double tolerance) {
   return static_cast<std::size_t>(
       std::max(least_photons, photons_at_1_percent * std::pow(0.01 / tolerance, 2)));
-}
-
-bool refracts(const Scene& scene) {
-  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
-    return object.translucent() != nullptr && object.translucent()->ior != 1.0;
-  });
 }
 
 class Lines {
@@ -168,7 +163,7 @@ std::vector<Contender> contenders(const Scene& scene, const SettingsOfTolerance&
             [&](SolverSettings& s, std::size_t level) { s = chosen(tolerances[level]); });
   add_exitances(lines);
   add_photon_steps(lines);
-  add_sources(lines, refracts(scene));
+  add_sources(lines, anything_refracts(scene));
   add_boundary_methods(lines);
   add_thesis(lines);
   for (std::size_t level = 0; level < samples.size(); ++level) {

@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "core/file_io.h"
 #include "pipeline/scene_setup.h"
+#include "scene/refracts.h"
 
 namespace knotlight {
 namespace {
@@ -141,11 +142,7 @@ void write_tables(const Comparison& c, const std::filesystem::path& folder) {
 void choose_for_comparison(Scene& scene) {
   scene.solver.diffusion = Diffusion::p1;
   scene.solver.photons_at_most = false;
-  const bool refracts =
-      std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
-        return object.translucent() != nullptr && object.translucent()->ior != 1.0;
-      });
-  if (!scene.solver.exitance && refracts) scene.solver.exitance = Exitance::p1;
+  if (!scene.solver.exitance && anything_refracts(scene)) scene.solver.exitance = Exitance::p1;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "pipeline/photon_budget.h"
 #include "pipeline/plan.h"
 #include "pipeline/solve_grid.h"
+#include "scene/refracts.h"
 #include "trace/overlap.h"
 
 namespace knotlight {
@@ -203,9 +204,7 @@ SolvedScene solve_scene(const PreparedScene& prepared, RunContext& run, FactorCa
       result.report.failures.push_back(
           fmt::format("{} lies inside a translucent object: {} counts light from outside alone",
                       lamp, name_of(plan.source)));
-  const bool refracts = std::any_of(
-      prepared.translucent.begin(), prepared.translucent.end(),
-      [&](std::uint32_t object) { return scene.objects[object].translucent()->ior != 1.0; });
+  const bool refracts = anything_refracts(scene);
   if (plan.source != SourceModel::photon_map &&
       (prepared.translucent.size() > 1 || (refracts && light_can_come_back(prepared))))
     result.report.failures.push_back(

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/clock.h"
-#include "pipeline/solve_scene.h"
+#include "study/timed_solve.h"
 
 namespace knotlight {
 namespace {
@@ -48,14 +48,7 @@ Solved solve_by(Method method, const LitBody& body, double tolerance, std::size_
   scene.solver.method = method;
   scene.solver.tolerance = tolerance;
   scene.solver.photons = photons;
-  RunOptions options;
-  options.seed = seed;
-  options.threads = threads;
-  options.quiet = true;
-  RunContext run(options, false);
-  const double start = cpu_seconds();
-  const SolvedScene solved = solve_scene(prepare_scene(std::move(scene)), run);
-  const double seconds = cpu_seconds() - start;
+  const auto [solved, seconds] = timed_solve(std::move(scene), seed, threads);
   const SolvedChannel& channel = solved.objects[0][0];
   return {channel.U_d, channel.report.error_estimate, seconds};
 }

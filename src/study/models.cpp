@@ -3,12 +3,11 @@
 
 #include <cmath>
 
-#include "core/clock.h"
 #include "core/not_finite.h"
-#include "pipeline/solve_scene.h"
 #include "scene/scene_reader.h"
 #include "study/experiments.h"
 #include "study/lit_body.h"
+#include "study/timed_solve.h"
 
 namespace knotlight {
 namespace {
@@ -53,15 +52,9 @@ Scene one_channel(const std::string& path) {
 }
 
 SolvedModel solve(Scene scene, const Points& at, std::uint64_t seed, int threads) {
-  RunOptions options;
-  options.seed = seed;
-  options.threads = threads;
-  options.quiet = true;
-  RunContext run(options, false);
-  const double start = cpu_seconds();
-  const SolvedScene solved = solve_scene(prepare_scene(std::move(scene)), run);
+  const auto [solved, seconds] = timed_solve(std::move(scene), seed, threads);
   SolvedModel result;
-  result.seconds = cpu_seconds() - start;
+  result.seconds = seconds;
   const SolvedChannel& channel = solved.objects[0][0];
   result.U_d = channel.U_d(at);
   result.error_estimate = channel.report.error_estimate;

@@ -1,13 +1,13 @@
 // How far the pictures of `render` are from path tracing, and what both cost: each scene of
 // scenes/pictures rendered with default settings and by `reference`. Prints a table.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "core/clock.h"
 #include "core/file_io.h"
 #include "pipeline/reference_scene.h"
 #include "pipeline/render_scene.h"
@@ -20,15 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int block = 8;  // pixels
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 struct Difference {
   int blocks = 0;
