@@ -124,17 +124,22 @@ void draw_state(const ViewSession& session, const PanelState& state) {
                    : fmt::format("{} x {}, {} sample{} per pixel", camera.width_px,
                                  camera.height_px, frame->passes, frame->passes == 1 ? "" : "s"));
   }
-  if (!status.error.empty()) text(red, status.error);
+}
+
+// What a picture is not to be trusted for, in the words in which `render` says it.
+std::vector<std::string> warnings_of(const ViewSession& session) {
+  std::vector<std::string> warnings;
+  if (const std::string error = session.status().error; !error.empty()) warnings.push_back(error);
   if (const std::string object = session.eye_inside(); !object.empty())
-    text(red,
-         fmt::format("The eye is inside '{}': what it sees there is not to be trusted", object));
-  if (session.view() == nullptr) return;
+    warnings.push_back(
+        fmt::format("The eye is inside '{}': what it sees there is not to be trusted", object));
+  if (session.view() == nullptr) return warnings;
   const SolvedView& view = *session.view();
-  if (!view.report().failures.empty()) {
-    text(red,
-         view.quality == Quality::preview ? "Not to be trusted (preview):" : "Not to be trusted:");
-    for (const std::string& failure : view.report().failures) text(red, "- " + failure);
-  }
+  if (!view.report().failures.empty())
+    warnings.emplace_back(view.quality == Quality::preview ? "Not to be trusted (preview):"
+                                                           : "Not to be trusted:");
+  for (const std::string& failure : view.report().failures) warnings.push_back("- " + failure);
+  return warnings;
 }
 
 void draw_solution(const ViewSession& session) {
@@ -394,6 +399,19 @@ void draw_panel(ViewSession& session, PanelState& state, float x, float width, f
   draw_solution(session);
   ImGui::Dummy(ImVec2(0.0F, 2.0F));
   text(grey, "F1: keys and mouse");
+  ImGui::End();
+}
+
+void draw_warnings(const ViewSession& session, float picture_width) {
+  const std::vector<std::string> warnings = warnings_of(session);
+  if (warnings.empty()) return;
+  constexpr float margin = 12.0F;
+  ImGui::SetNextWindowPos(ImVec2(margin, margin));
+  ImGui::SetNextWindowSize(ImVec2(picture_width - 2.0F * margin, 0.0F));
+  ImGui::Begin("warnings", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+  for (const std::string& warning : warnings) text(red, warning);
   ImGui::End();
 }
 

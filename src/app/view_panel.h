@@ -21,6 +21,8 @@ struct PanelState {
 
 // Lays out the panel as Dear ImGui wants it, at x, over the height of the window.
 void draw_panel(ViewSession& session, PanelState& state, float x, float width, float height);
+// Over the picture, so that nothing in the panel moves under the mouse when they come and go.
+void draw_warnings(const ViewSession& session, float picture_width);
 void draw_help(PanelState& state, float picture_width, float height);
 
 // What the keys do too. Errors become the panel's message. A picture that is still coarse is saved

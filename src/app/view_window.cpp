@@ -237,6 +237,7 @@ class ViewWindow {
     if (!texture_)
       draw_words("solving ...", 0.5F * static_cast<float>(room_width_), 0.5F * height_);
     draw_panel(session_, panel_, static_cast<float>(room_width_), panel_width, height_);
+    draw_warnings(session_, static_cast<float>(room_width_));
     draw_help(panel_, static_cast<float>(room_width_), height_);
     canvas_->end_frame();
     SDL_RenderPresent(renderer_.get());
