@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chart/error_parts.h"
 #include "core/clock.h"
 #include "core/errors.h"
 #include "core/memory_peak.h"
@@ -113,48 +114,6 @@ Outcome run_once(const Contender& contender, PreparedScene& prepared, const Yard
   return {};
 }
 
-using Error = double (*)(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Yardstick& by);
-
-double field_error(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Yardstick& by) {
-  return relative_rms(a, b, by.checks.areas);
-}
-
-double picture_error(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Yardstick&) {
-  return block_error(a, b);
-}
-
-// Root of a - b, both squared, 0 if b is larger; not-a-number stays.
-double without(double a, double b) {
-  const double square = a * a - b * b;
-  return std::sqrt(square < 0.0 ? 0.0 : square);
-}
-
-// truth_noise: relative, of `truth`. converged: of the same model; empty: unknown.
-ErrorParts error_parts(const std::vector<Eigen::VectorXd>& values, const Eigen::VectorXd& truth,
-                       double truth_noise, const Eigen::VectorXd& converged, const Yardstick& by,
-                       Error error) {
-  ErrorParts result;
-  if (values.empty()) return result;
-  const auto n = static_cast<double>(values.size());
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(truth.size());
-  double squares = 0.0;
-  for (const Eigen::VectorXd& value : values) {
-    mean += value / n;
-    squares += std::pow(error(value, truth, by), 2) / n;
-  }
-  result.error = without(std::sqrt(squares), truth_noise);
-  if (values.size() > 1) {
-    double spread = 0.0;
-    for (const Eigen::VectorXd& value : values)
-      spread += std::pow(error(Eigen::VectorXd(value - mean + truth), truth, by), 2);
-    result.noise = std::sqrt(spread / (n - 1.0));
-  }
-  if (converged.size() == 0) return result;
-  result.numerical = without(error(mean, converged, by), result.noise / std::sqrt(n));
-  result.model = without(error(converged, truth, by), truth_noise);
-  return result;
-}
-
 }  // namespace
 
 Measurement measure(const Contender& contender, PreparedScene& prepared, const Yardstick& by,
@@ -190,9 +149,11 @@ Measurement measure(const Contender& contender, PreparedScene& prepared, const Y
   if (contender.maker == Maker::solver)
     if (const auto found = by.models.find(model_of(contender.solver)); found != by.models.end())
       converged = found->second;
-  m.field = error_parts(fields, by.field(), 0.0, converged.field, by, field_error);
-  m.picture =
-      error_parts(pictures, by.truth.means, by.truth_noise, converged.picture, by, picture_error);
+  m.field = error_parts(
+      fields, by.field(), 0.0, converged.field,
+      [&](const auto& a, const auto& b) { return relative_rms(a, b, by.checks.areas); });
+  m.picture = error_parts(pictures, by.truth.means, by.truth_noise, converged.picture,
+                          [](const auto& a, const auto& b) { return block_error(a, b); });
   return m;
 }
 
