@@ -168,13 +168,15 @@ std::vector<Contender> contenders(const Scene& scene, const SettingsOfTolerance&
   add_thesis(lines);
   for (std::size_t level = 0; level < samples.size(); ++level) {
     const int l = static_cast<int>(level);
-    lines.add({dipole_line,
-               fmt::format("{:g} samples per square mean free path", entries[level]),
-               l,
-               Maker::dipole,
-               {},
-               0,
-               entries[level]});
+    for (const DipoleForm form : {DipoleForm::classic, DipoleForm::better})
+      lines.add({form == DipoleForm::classic ? dipole_line : better_dipole_line,
+                 fmt::format("{:g} samples per square mean free path", entries[level]),
+                 l,
+                 Maker::dipole,
+                 {},
+                 0,
+                 entries[level],
+                 form});
     lines.add({path_tracing_line,
                fmt::format("{} per pixel", samples[level]),
                l,

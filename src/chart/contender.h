@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rivals/dipole_kernel.h"
 #include "scene/scene.h"
 
 namespace knotlight {
@@ -19,9 +20,10 @@ struct Contender {
   std::string setting;  // which of the line, in words
   int level = 0;        // 0: the coarsest; finer ones may cost four times as much
   Maker maker = Maker::solver;
-  SolverSettings solver = {};  // Maker::solver
-  std::uint64_t samples = 0;   // per pixel, Maker::reference
-  double entries = 0.0;        // per square of a transport mean free path, Maker::dipole
+  SolverSettings solver = {};             // Maker::solver
+  std::uint64_t samples = 0;              // per pixel, Maker::reference
+  double entries = 0.0;                   // per square of a transport mean free path, Maker::dipole
+  DipoleForm form = DipoleForm::classic;  // Maker::dipole
 
   std::string name() const { return line + "; " + setting; }
 };
@@ -39,6 +41,7 @@ std::vector<Contender> contenders(const Scene& scene, const SettingsOfTolerance&
 inline constexpr const char* default_line = "default settings";
 // The rivals' lines.
 inline constexpr const char* dipole_line = "dipole";
+inline constexpr const char* better_dipole_line = "dipole, better form";
 inline constexpr const char* path_tracing_line = "path tracing";
 
 }  // namespace knotlight

@@ -55,6 +55,7 @@ Outcome run_dipole(const Contender& contender, const PreparedScene& prepared, co
                    RunContext& run) {
   DipoleSettings settings;
   settings.samples_per_square = contender.entries;
+  settings.form = contender.form;
   Outcome result;
   double start = cpu_seconds();
   result.field.resize(by.checks.areas.size());
