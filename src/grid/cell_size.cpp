@@ -27,10 +27,11 @@ std::size_t cell_budget(double tolerance) {
 CellSize cell_size_for(const Shape& shape, double sigma_tr, double sigma_t, double tolerance,
                        std::size_t most_cells) {
   const Bounds box = bounds(shape);
-  const double rule =
+  const double rule = std::min(
+      coarsest_cells / sigma_tr,
       std::sqrt(tolerance / usual_tolerance) *
-      std::min({transport_mean_free_paths_per_cell / sigma_tr, mean_free_paths_per_cell / sigma_t,
-                box.largest_extent() / cells_per_size});
+          std::min({transport_mean_free_paths_per_cell / sigma_tr,
+                    mean_free_paths_per_cell / sigma_t, box.largest_extent() / cells_per_size}));
   const auto most = static_cast<double>(most_cells);
   const double budget = std::max(std::cbrt(volume(shape) / most),
                                  std::cbrt((box.hi - box.lo).prod() / (box_share * most)));

@@ -7,6 +7,10 @@
 
 namespace knotlight {
 
+// Transport mean free paths. Beyond, the layer in which light is first scattered lies within one
+// cell, also of a grid of twice the cell size, and comparing the two says nothing any more.
+inline constexpr double coarsest_cells = 2.0;
+
 struct CellSize {
   double h = 0.0;           // length
   double h_sigma_tr = 0.0;  // in transport mean free paths; the error grows as its square
@@ -20,7 +24,7 @@ struct CellSize {
 // for g > 0) and over the size of the object, and the error is of second order. The measurements
 // behind the numbers are in docs/grid.md. sigma_tr, sigma_t: the largest of the channels that share
 // the grid, 1/length. At most `most_cells` cells inside the object and 8 times as many in its
-// bounding box.
+// bounding box. Only that budget makes cells larger than `coarsest_cells`.
 CellSize cell_size_for(const Shape& shape, double sigma_tr, double sigma_t, double tolerance,
                        std::size_t most_cells);
 

@@ -14,10 +14,11 @@
 namespace knotlight {
 namespace {
 
-// Beyond this cell size the layer in which light is first scattered lies within one cell, on the
-// coarse grid too, and comparing the two says nothing any more.
-constexpr double coarsest_cells = 2.0;  // transport mean free paths
-constexpr double lost_allowed = 1e-3;   // share of the sources that found no cell
+// A coarse tolerance may ask for cells that the shape's thin parts do not allow. They shrink by
+// this until it does, at most to those of the default tolerance; a grid of each size costs little
+// then.
+constexpr double shrink = 0.7;
+constexpr double lost_allowed = 1e-3;  // share of the sources that found no cell
 // Residual of the linear systems per tolerance: the field's rms error from it was half of it or
 // less, so this is far below the error of the cells. It counts in full in the estimate.
 constexpr double linear_share = 0.03;
@@ -74,10 +75,17 @@ CellSize grid_cell_size(const Object& object, int channels, const SolverSettings
 ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
                        const Workers& workers) {
   ObjectGrids grids;
-  grids.size = grid_cell_size(object, channels, settings);
-  grids.fine = std::make_shared<GridGeometry>(object.shape, grids.size.h, workers);
+  grids.cell_size = grid_cell_size(object, channels, settings).h;
+  SolverSettings usual = settings;
+  usual.tolerance = SolverSettings().tolerance;
+  const double least = grid_cell_size(object, channels, usual).h;
+  grids.fine = std::make_shared<GridGeometry>(object.shape, grids.cell_size, workers);
+  while (!grids.fine->resolved() && grids.cell_size > least) {
+    grids.cell_size = std::max(least, shrink * grids.cell_size);
+    grids.fine = std::make_shared<GridGeometry>(object.shape, grids.cell_size, workers);
+  }
   if (!grids.fine->ok() || !grids.fine->has_nested_coarse())
-    grids.coarse = std::make_shared<GridGeometry>(object.shape, 2.0 * grids.size.h, workers);
+    grids.coarse = std::make_shared<GridGeometry>(object.shape, 2.0 * grids.cell_size, workers);
   return grids;
 }
 
@@ -104,8 +112,9 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
 
   const SurfaceSamples checks = boundary_check_points(p);
   const Eigen::VectorXd u = field.values(checks.positions, checks.normals);
-  const GridErrorEstimate estimate = estimate_error(
-      field, coarse.field, checks.positions, checks.normals, p.coefficients.lambda * grids.size.h);
+  const GridErrorEstimate estimate =
+      estimate_error(field, coarse.field, checks.positions, checks.normals,
+                     p.coefficients.lambda * grids.cell_size);
   // Both relative to the rms over the surface.
   solution.numerical_error =
       relative(estimate.rms * estimate.scale, root_mean_square(u)) + mean.residual;
@@ -119,7 +128,7 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
   if (!grids.fine->resolved())
     solution.failures.push_back("the grid does not resolve the object: " +
                                 grids.fine->unresolved());
-  const double cell_in_mean_free_paths = grids.size.h * p.medium.sigma_tr();
+  const double cell_in_mean_free_paths = grids.cell_size * p.medium.sigma_tr();
   if (cell_in_mean_free_paths > coarsest_cells)
     solution.failures.push_back(
         fmt::format("cells of {:.2g} transport mean free paths do not resolve the light's first "
@@ -131,7 +140,7 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
     solution.failures.push_back(fmt::format("{:.2g} of the sources found no cell", lost));
 
   solution.figures = {{"cells", static_cast<double>(grids.fine->quality().cells)},
-                      {"cell_size", grids.size.h},
+                      {"cell_size", grids.cell_size},
                       {"cell_size_in_transport_mean_free_paths", cell_in_mean_free_paths},
                       {"iterations", static_cast<double>(mean.iterations)},
                       {"linear_residual", mean.residual},

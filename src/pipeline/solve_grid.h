@@ -11,7 +11,7 @@ namespace knotlight {
 
 // An object on cells of size h and, for the error estimate, 2 h.
 struct ObjectGrids {
-  CellSize size;
+  double cell_size = 0.0;  // h, length
   std::shared_ptr<const GridGeometry> fine;
   // Null if the fine grid's own second level will do.
   std::shared_ptr<const GridGeometry> coarse;

@@ -14,6 +14,8 @@ TEST(CellSize, Rule) {
   EXPECT_DOUBLE_EQ(cell_size_for(ball, 40.0, 40.0, 0.04, 100'000'000).h,
                    1.0 / 40.0);  // second order
   EXPECT_DOUBLE_EQ(cell_size_for(ball, 30.0, 150.0, 0.01, 100'000'000).h, 0.75 / 150.0);  // g = 0.8
+  EXPECT_DOUBLE_EQ(cell_size_for(ball, 40.0, 40.0, 0.5, 100'000'000).h,
+                   coarsest_cells / 40.0);  // light's first scattering is to be seen
   EXPECT_FALSE(cell_size_for(ball, 30.0, 30.0, 0.01, 100'000'000).limited());
 }
 
