@@ -57,13 +57,18 @@ class Lines {
   void add(Contender contender) {
     if (contender.level < levels_) all_.push_back(std::move(contender));
   }
-  std::vector<Contender> coarsest_first() {
-    std::stable_sort(all_.begin(), all_.end(),
-                     [](const auto& a, const auto& b) { return a.level < b.level; });
+  std::vector<Contender> in_order() {
+    std::stable_sort(all_.begin(), all_.end(), [](const auto& a, const auto& b) {
+      return std::pair(!is_ours(a), is_ours(a) ? 0 : a.level) <
+             std::pair(!is_ours(b), is_ours(b) ? 0 : b.level);
+    });
     return std::move(all_);
   }
 
  private:
+  static bool is_ours(const Contender& contender) {
+    return contender.line == default_line || contender.line == our_field_line;
+  }
   static std::string describe(const SolverSettings& s) {
     std::string text = fmt::format("tolerance {:g}, {}{} photons", s.tolerance,
                                    s.photons_at_most ? "at most " : "", s.photons);
@@ -93,7 +98,7 @@ void add_exitances(Lines& lines) {
   lines.add("grid", [](SolverSettings& s, std::size_t) { s.diffusion = Diffusion::asymptotic; });
   lines.add("grid, grosjean",
             [](SolverSettings& s, std::size_t) { s.diffusion = Diffusion::grosjean; });
-  lines.add("grid, p1", [](SolverSettings&, std::size_t) {});
+  lines.add(our_field_line, [](SolverSettings&, std::size_t) {});
   for (const auto& [name, exitance] :
        {std::pair{"p1 exitance", Exitance::p1}, std::pair{"lambert", Exitance::lambert},
         std::pair{"mean_intensity", Exitance::mean_intensity}})
@@ -184,7 +189,7 @@ std::vector<Contender> contenders(const Scene& scene, const SettingsOfTolerance&
                {},
                samples[level]});
   }
-  return lines.coarsest_first();
+  return lines.in_order();
 }
 
 }  // namespace knotlight

@@ -31,7 +31,8 @@ struct Contender {
 // What the scene has the solver do if it is aimed at this tolerance and nothing else is changed.
 using SettingsOfTolerance = std::function<SolverSettings(double tolerance)>;
 
-// Every line for a scene, the coarsest settings of all lines first. levels: how many, 1..6. A
+// Every line for a scene: what the program chooses by itself, to which all else is compared, then
+// the coarsest settings of all other lines, and so on. levels: how many, 1..6. A
 // setting is the scene's own but for what its line is about: source, method, exitance, diffusion,
 // knots, photons, tolerance, precision.
 std::vector<Contender> contenders(const Scene& scene, const SettingsOfTolerance& chosen,
@@ -39,6 +40,8 @@ std::vector<Contender> contenders(const Scene& scene, const SettingsOfTolerance&
 
 // The line that shows what `tolerance` chooses by itself.
 inline constexpr const char* default_line = "default settings";
+// The same for its field, which is judged where all of it is the equation's (P1).
+inline constexpr const char* our_field_line = "grid, p1";
 // The rivals' lines.
 inline constexpr const char* dipole_line = "dipole";
 inline constexpr const char* better_dipole_line = "dipole, better form";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace knotlight {
 namespace {
@@ -64,6 +65,14 @@ std::optional<LineSeconds> seconds_for(const std::vector<Measurement>& all, cons
   if (line != path_tracing_line || front.empty()) return std::nullopt;
   const double ratio = error_of(front.back(), quantity) / error;
   return LineSeconds{seconds_of(front.back(), quantity) * ratio * ratio, true};
+}
+
+double least_error(const std::vector<Measurement>& all, const std::string& line,
+                   Quantity quantity) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Measurement& m : all)
+    if (m.line == line && usable(m, quantity)) least = std::min(least, error_of(m, quantity));
+  return least;
 }
 
 std::vector<ToleranceCheck> check_tolerance(const std::vector<Measurement>& all,

@@ -37,6 +37,9 @@ struct LineSeconds {
 std::optional<LineSeconds> seconds_for(const std::vector<Measurement>& all, const std::string& line,
                                        Quantity quantity, double error);
 
+// Of the line's trusted measurements; infinite if there are none.
+double least_error(const std::vector<Measurement>& all, const std::string& line, Quantity quantity);
+
 // A setting that `tolerance` chose, beside the cheapest that has no larger error.
 struct ToleranceCheck {
   Measurement chosen, best;

@@ -32,13 +32,13 @@ bool begins(const std::string& text, const std::string& with) {
 }
 
 bool of_field(const std::string& line) {
-  return line == "grid, p1" || begins(line, "grid, irr") || begins(line, "grid, bound") ||
+  return line == our_field_line || begins(line, "grid, irr") || begins(line, "grid, bound") ||
          line == "lbkm, p1" || line == "mfs, p1" || line == "bkm, p1" ||
          line == "bkm_thesis, photon_map" || line == "bkm_thesis, irradiance_thesis" ||
          begins(line, dipole_line);
 }
 bool of_thesis(const std::string& line) {
-  return begins(line, "bkm_thesis") || line == "grid, p1";
+  return begins(line, "bkm_thesis") || line == our_field_line;
 }
 bool of_exitance(const std::string& line) {
   return line == "grid" || begins(line, "grid, gros") || begins(line, "grid, p1") ||
@@ -170,14 +170,20 @@ const std::vector<Rival> picture_rivals = {{"lbkm", "lbkm"},
 
 // What a user gets who sets nothing but the tolerance.
 const char* our_line(Quantity quantity) {
-  return quantity == Quantity::field ? "grid, p1" : default_line;
+  return quantity == Quantity::field ? our_field_line : default_line;
 }
 
-std::string ratio(const std::optional<LineSeconds>& theirs, const std::optional<LineSeconds>& ours,
-                  bool all_tried) {
-  if (!theirs) return all_tried ? "never" : "not reached";
-  if (!ours) return "-";
-  return fmt::format("{}{:.3g}", theirs->extrapolated ? "~" : "", theirs->seconds / ours->seconds);
+// A rival's seconds over ours, or the least error that it came to.
+std::string ratio(const ChartedScene& scene, const char* line, Quantity quantity, double error) {
+  const auto theirs = seconds_for(scene.measurements, line, quantity, error);
+  const auto ours = seconds_for(scene.measurements, our_line(quantity), quantity, error);
+  if (theirs && ours)
+    return fmt::format("{}{:.3g}", theirs->extrapolated ? "~" : "",
+                       theirs->seconds / ours->seconds);
+  if (theirs) return "-";
+  const double least = least_error(scene.measurements, line, quantity);
+  if (!std::isfinite(least)) return "not trusted";
+  return fmt::format("at best {:.2g} %{}", 100.0 * least, scene.untried > 0 ? " so far" : "");
 }
 
 // Per scene: our seconds, what the best of all our settings would take, a row for each rival.
@@ -191,7 +197,9 @@ std::vector<std::vector<std::string>> ratio_rows(const std::vector<ChartedScene>
   for (const ChartedScene& scene : scenes) {
     const auto own = seconds_for(scene.measurements, our_line(quantity), quantity, error);
     const auto best = cheapest(scene.measurements, quantity, error);
-    const char* none = scene.untried > 0 ? "not reached" : "never";
+    const std::string none =
+        fmt::format("at best {}",
+                    percent_or_dash(least_error(scene.measurements, our_line(quantity), quantity)));
     rows[0].push_back(own ? number_or_dash(own->seconds) : none);
     rows[1].push_back(own && best ? number_or_dash(seconds_of(*best, quantity) / own->seconds)
                                   : "-");
@@ -200,9 +208,7 @@ std::vector<std::vector<std::string>> ratio_rows(const std::vector<ChartedScene>
     std::vector<std::string> row = start;
     row.push_back(fmt::format("{} / knotlight", rival.name));
     for (const ChartedScene& scene : scenes)
-      row.push_back(ratio(seconds_for(scene.measurements, rival.line, quantity, error),
-                          seconds_for(scene.measurements, our_line(quantity), quantity, error),
-                          scene.untried == 0));
+      row.push_back(ratio(scene, rival.line, quantity, error));
     rows.push_back(std::move(row));
   }
   return rows;
@@ -280,7 +286,9 @@ std::string chart_index(const std::vector<ChartedScene>& scenes) {
   std::string body = html_heading(2, "Seconds of the rivals, over ours");
   body += html_paragraph(
       "CPU seconds of the cheapest trusted setting that was measured to have no larger error. "
-      "~: path tracing, by its noise. never: no setting of that line comes so near.");
+      "~: path tracing, by its noise. At best: the least error of any trusted setting of that "
+      "line; so "
+      "far: the budget ended before the finest.");
   body += html_table(ratio_header(scenes), all_ratio_rows(scenes));
   for (const ChartedScene& scene : scenes) {
     body += html_heading(2, scene.name);

@@ -20,9 +20,13 @@ SolverSettings as_it_is(double) {
   return {};
 }
 
-TEST(Contenders, CoarseOnesFirstAndEachOnce) {
+TEST(Contenders, OursThenCoarseOnesFirstAndEachOnce) {
   const std::vector<Contender> all = contenders(ball(1.0), as_it_is, 3);
-  EXPECT_TRUE(std::is_sorted(all.begin(), all.end(),
+  const auto ours = [](const auto& c) {
+    return c.line == default_line || c.line == our_field_line;
+  };
+  EXPECT_TRUE(std::is_partitioned(all.begin(), all.end(), ours));
+  EXPECT_TRUE(std::is_sorted(std::partition_point(all.begin(), all.end(), ours), all.end(),
                              [](const auto& a, const auto& b) { return a.level < b.level; }));
   EXPECT_EQ(all.back().level, 2);
   std::set<std::string> lines;

@@ -49,6 +49,11 @@ TEST(Front, PathTracingIsExtrapolatedByItsLaw) {
   EXPECT_FALSE(seconds_for(some, "bkm", Quantity::picture, 0.02));
 }
 
+TEST(Front, LeastErrorIsOfTrustedOnes) {
+  EXPECT_EQ(least_error(some, "grid", Quantity::picture), 0.01);
+  EXPECT_EQ(least_error(some, "bkm", Quantity::picture), std::numeric_limits<double>::infinity());
+}
+
 TEST(Front, ToleranceIsHeldAgainstTheCheapest) {
   const std::vector<ToleranceCheck> checks = check_tolerance(some, Quantity::picture);
   ASSERT_EQ(checks.size(), 1U);
