@@ -10,12 +10,12 @@ constexpr std::size_t first_share = 16;
 constexpr std::size_t least_photons = 20'000;  // with fewer nothing is trusted
 // Noise that is hardly to be noticed beside the tolerance, or beside the error of the cells where
 // that is larger.
-constexpr double noise_accepted = 0.5;
-// Aimed at where that is exceeded; what the first try makes of noise is itself noisy.
-constexpr double noise_wanted = 0.85;  // of what is accepted
-// Noise falls as n^-1 on smooth bodies and n^-1/2 behind many edges; a guess that falls short is
-// followed by another.
-constexpr double noise_order = 0.75;
+constexpr double noise_accepted = 0.6;
+// Aimed at where that is exceeded. A guess that falls short costs all its photons and another guess;
+// one that goes too far only what it has too many.
+constexpr double noise_wanted = 0.7;  // of what is accepted
+// Noise falls as n^-0.9 on smooth bodies and n^-1/2 behind many edges.
+constexpr double noise_order = 0.65;
 constexpr double least_growth = 1.5;
 // So much of larger errors of the cells counts, in tolerances: three of them in all are not
 // trusted.

@@ -42,7 +42,7 @@ TEST(PhotonBudget, NoMoreThanTheNoiseCallsFor) {
     const double aim = tolerance == std::string("solver.tolerance=0.02") ? 0.02 : 0.08;
     EXPECT_LT(one.report.photons_emitted, 0.5 * 2e6 * 0.01 / aim);
     EXPECT_GE(one.report.photons_emitted, 20'000U);
-    EXPECT_LT(one.objects[0][0].report.noise, 0.5 * aim);
+    EXPECT_LT(one.objects[0][0].report.noise, 0.6 * aim);
   }
 }
 
@@ -50,7 +50,7 @@ TEST(PhotonBudget, NoMoreThanTheNoiseCallsFor) {
 TEST(PhotonBudget, MoreWhereThereIsMoreNoise) {
   const SolvedScene one = solved({"solver.tolerance=0.04", "materials.wax.sigma_s=50"});
   EXPECT_GT(one.report.photons_emitted, solved({"solver.tolerance=0.04"}).report.photons_emitted);
-  EXPECT_LT(one.objects[0][0].report.noise, 0.5 * 0.04);
+  EXPECT_LT(one.objects[0][0].report.noise, 0.6 * 0.04);
 }
 
 TEST(PhotonBudget, GuessesFromTheNoise) {
@@ -64,9 +64,9 @@ TEST(PhotonBudget, GuessesFromTheNoise) {
     report.objects[0].channels[1].numerical_error = numerical_error;
     return photons_needed(report, 1'000, 16'000, 0.01);
   };
-  EXPECT_EQ(needed(0.005, 0.0), 1'000U);
-  // Twice what is aimed at, n^-3/4.
-  EXPECT_NEAR(static_cast<double>(needed(0.0085, 0.0)), 2'520.0, 1.0);
+  EXPECT_EQ(needed(0.006, 0.0), 1'000U);
+  // Twice what is aimed at, n^-0.65.
+  EXPECT_NEAR(static_cast<double>(needed(0.0084, 0.0)), 2'905.0, 1.0);
   for (const double much : {1.0, std::nan(""), HUGE_VAL}) EXPECT_EQ(needed(much, 0.0), 16'000U);
   // Beside a large error of the cells more is accepted, as long as the sum is trusted.
   EXPECT_EQ(needed(0.007, 0.0175), 1'000U);
