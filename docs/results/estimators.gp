@@ -47,7 +47,8 @@ set logscale x
 set title "f in the obliquely lit slab, 1 M photons: divergence known or differentiated"
 set xlabel "step of the difference, mean free paths"
 set yrange [0.003:1]
-of(s, d) = sprintf("< awk -F, '$1==\"%s\" && $2==1000000 && $3==\"%s\"' %s", s, d, \
+most = system("awk -F, '$2+0 > m+0 {m = $2} END {print m}' ".data."divergence.csv")
+of(s, d) = sprintf("< awk -F, '$1==\"%s\" && $2==%s && $3==\"%s\"' %s", s, most, d, \
                    data."divergence.csv")
 plot for [s in "random low_discrepancy"] for [d in "inside surface"] of(s, d) using 4:6 \
        with linespoints title "differentiated, ".s.", ".d noenhanced, \

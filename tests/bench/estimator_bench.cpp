@@ -2,7 +2,9 @@
 // and number of photons, bias and noise apart, seconds; and the divergence of Q_ri, known or
 // differentiated. Writes CSV into a folder; docs/results/estimators.gp draws the charts from it.
 //
-//   estimator_bench DIR [n | settings | depth | divergence]
+//   estimator_bench DIR [n | settings | depth | divergence | --quick]
+//
+// --quick: all four with few photons at few points: that they run, not what is true.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -27,8 +29,15 @@ using testing_scenes::scene_of;
 using testing_scenes::torus_mesh;
 using testing_scenes::translucent;
 
-constexpr std::size_t volume_points = 700;
-constexpr std::size_t surface_points = 700;
+// How much is measured.
+struct Effort {
+  std::size_t volume_points = 700;
+  std::size_t surface_points = 700;
+  std::vector<std::size_t> counts{10'000, 30'000, 100'000, 300'000, 1'000'000, 4'000'000};
+  std::size_t photons = 1'000'000;  // where their number is not varied
+};
+const Effort quick{30, 30, {3'000, 10'000}, 10'000};
+
 constexpr double layer = 0.1;  // mean free paths
 
 // Of the processor, in this one thread: the figures do not depend on what else the machine does.
@@ -113,18 +122,18 @@ struct Places {
   std::vector<Vec3> volume, layer, surface;
   std::vector<Vec3> normals;  // of the surface points
 };
-Places places(const Case& c) {
+Places places(const Case& c, const Effort& effort) {
   Places p;
   const Shape& shape = c.scene.objects[0].shape;
   const Bounds box = bounds(shape);
   Rng rng(7, Stream::tests, 0);
-  while (p.volume.size() < volume_points) {
+  while (p.volume.size() < effort.volume_points) {
     Vec3 x;
     for (int i = 0; i < 3; ++i) x[i] = box.lo[i] + (box.hi[i] - box.lo[i]) * rng.uniform();
     if (c.caster->inside(x, 0)) p.volume.push_back(x);
   }
   for (const SurfacePoint& s :
-       stratified_surface_points(shape, surface_points, true, 3, Stream::tests)) {
+       stratified_surface_points(shape, effort.surface_points, true, 3, Stream::tests)) {
     p.surface.push_back(s.position);
     p.normals.push_back(s.normal);
     const Vec3 x = s.position - layer * rng.uniform() / c.medium.sigma_t() * s.normal;
@@ -162,15 +171,15 @@ EstimateOptions carried(std::size_t nearest, double radius) {
   return {nearest, radius, true, DensityEstimator::nearest, false, false};
 }
 
-void write_n(const std::string& folder) {
+void write_n(const std::string& folder, const Effort& effort) {
   std::ofstream out(folder + "/n.csv");
   out << "case,scheme,n,stored,nearest,U_volume,Q_volume,U_layer,Q_layer,U_surface,Q_surface,"
          "estimates_per_s,trace_s,tree_s\n";
   for (const std::string& name : cases) {
     const Case c = make_case(name);
-    const Places p = places(c);
+    const Places p = places(c, effort);
     for (const std::string& scheme : schemes)
-      for (const std::size_t n : {10'000, 30'000, 100'000, 300'000, 1'000'000, 4'000'000}) {
+      for (const std::size_t n : effort.counts) {
         Photons traced = photons(c, n, 1, scheme);
         const double start = seconds();
         const VolumePhotonMap map(std::move(traced.list), c.medium);
@@ -190,8 +199,8 @@ void write_n(const std::string& folder) {
 
 // Root mean squares over the points of the layer, relative to that of U_ri: of what the mean over
 // the seeds is off, and of the spread around it.
-void write_settings(const std::string& folder) {
-  constexpr std::size_t n = 1'000'000;
+void write_settings(const std::string& folder, const Effort& effort) {
+  const std::size_t n = effort.photons;
   constexpr int seeds = 4;
   std::ofstream out(folder + "/settings.csv");
   out << "case,scheme,estimator,nearest,max_radius,bias,noise,estimates_per_s\n";
@@ -210,7 +219,7 @@ void write_settings(const std::string& folder) {
     settings.push_back({"radius", {2, r, true, DensityEstimator::radius}});
   for (const std::string name : {"slab_oblique", "sphere", "torus"}) {
     const Case c = make_case(name);
-    const std::vector<Vec3> layer_points = places(c).layer;
+    const std::vector<Vec3> layer_points = places(c, effort).layer;
     std::vector<Vec3> points;  // every third: they follow each other along the surface
     for (std::size_t i = 0; i < layer_points.size(); i += 3) points.push_back(layer_points[i]);
     for (const std::string& scheme : schemes) {
@@ -244,13 +253,13 @@ void write_settings(const std::string& folder) {
   }
 }
 
-void write_depth(const std::string& folder) {
-  constexpr std::size_t n = 1'000'000;
+void write_depth(const std::string& folder, const Effort& effort) {
+  const std::size_t n = effort.photons;
   std::ofstream out(folder + "/depth.csv");
   out << "case,depth,carried,random,low_discrepancy\n";
   for (const std::string name : {"slab_oblique", "sphere", "torus"}) {
     const Case c = make_case(name);
-    const Places p = places(c);
+    const Places p = places(c, effort);
     const VolumePhotonMap dice(photons(c, n, 1, "random").list, c.medium);
     const VolumePhotonMap even(photons(c, n, 1, "low_discrepancy").list, c.medium);
     for (const double depth : {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6}) {
@@ -269,17 +278,17 @@ void write_depth(const std::string& folder) {
 }
 
 // Relative L2 error of f, whose two parts are known: f = source_per_U_ri * U_ri.
-void write_divergence(const std::string& folder) {
+void write_divergence(const std::string& folder, const Effort& effort) {
   std::ofstream out(folder + "/divergence.csv");
   out << "scheme,n,depths,step,identity,differentiated\n";
   const Case c = make_case("slab_oblique");
   const DiffusionCoefficients d = diffusion_coefficients(c.medium, Boundary::milne);
-  const Places p = places(c);
+  const Places p = places(c, effort);
   std::vector<Vec3> deep;  // a step of 0.8 and a ball of 0.25 stay inside
   for (const Vec3& x : p.volume)
     if (x.z() < -1.05 && std::abs(x.x()) < 3.9 && std::abs(x.y()) < 3.9) deep.push_back(x);
   for (const std::string& scheme : schemes)
-    for (const std::size_t n : {100'000, 1'000'000}) {
+    for (const std::size_t n : {effort.photons / 10, effort.photons}) {
       const VolumePhotonMap map(photons(c, n, 1, scheme).list, c.medium);
       const auto error_of = [&](const std::vector<Vec3>& points, const SourceTermOptions& options) {
         double sum = 0.0, norm = 0.0;
@@ -311,15 +320,18 @@ void write_divergence(const std::string& folder) {
 }  // namespace knotlight
 
 int main(int argc, char** argv) {
+  using namespace knotlight;
   if (argc < 2) {
-    fmt::print(stderr, "estimator_bench DIR [n | settings | depth | divergence]\n");
+    fmt::print(stderr, "estimator_bench DIR [n | settings | depth | divergence | --quick]\n");
     return 2;
   }
   const std::string folder = argv[1];
   const std::string part = argc > 2 ? argv[2] : "";
-  if (part.empty() || part == "n") knotlight::write_n(folder);
-  if (part.empty() || part == "settings") knotlight::write_settings(folder);
-  if (part.empty() || part == "depth") knotlight::write_depth(folder);
-  if (part.empty() || part == "divergence") knotlight::write_divergence(folder);
+  const bool all = part.empty() || part == "--quick";
+  const Effort effort = part == "--quick" ? quick : Effort{};
+  if (all || part == "n") write_n(folder, effort);
+  if (all || part == "settings") write_settings(folder, effort);
+  if (all || part == "depth") write_depth(folder, effort);
+  if (all || part == "divergence") write_divergence(folder, effort);
   return 0;
 }

@@ -1,5 +1,6 @@
 // How fast sampling error falls with the number of rays: random collisions against expected values.
-//   expected_values_bench DIR    writes expected-values.csv and expected-values.svg there
+//   expected_values_bench DIR [--quick]    writes expected-values.csv and its charts there; quick:
+//                                          few rays, that it runs, not what is true
 // The error is that of the solved U_d on the surface (relative rms at 512 points) on one grid,
 // against 16 million rays on the same grid, so that neither the grid's error nor diffusion's is in
 // it. rms over two replicates each.
@@ -25,7 +26,11 @@ namespace {
 
 using Photons = std::vector<VolumePhoton>;
 
-constexpr std::size_t converged_rays = 16'000'000;
+struct Effort {
+  std::size_t most_rays = 2'560'000;
+  std::size_t converged_rays = 16'000'000;
+};
+constexpr Effort quick{40'000, 80'000};
 constexpr double cell = 0.025;  // half a transport mean free path
 
 struct Case {
@@ -110,7 +115,7 @@ class Ball {
   Points positions_, normals_;
 };
 
-int run(const std::string& folder) {
+int run(const std::string& folder, const Effort& effort) {
   const std::array<Case, 2> cases{
       {{"beam", {DirectionalLight{-Vec3::UnitZ(), Spectrum::Ones()}}},
        {"area light",
@@ -128,11 +133,11 @@ int run(const std::string& folder) {
     Chart chart{
         "U_d of a ball under a " + c.name, "rays", "relative rms sampling error", true, true, {}};
     double unused = 0.0;
-    const Eigen::VectorXd exact = ball.solve(schemes[1], converged_rays, 99, unused);
+    const Eigen::VectorXd exact = ball.solve(schemes[1], effort.converged_rays, 99, unused);
     for (const Scheme& scheme : schemes) {
       ChartSeries series;
       series.name = scheme.name;
-      for (std::size_t rays = 10'000; rays <= 2'560'000; rays *= 4) {
+      for (std::size_t rays = 10'000; rays <= effort.most_rays; rays *= 4) {
         double squares = 0.0, seconds = 0.0;
         for (const std::uint64_t seed : {1, 2}) {
           double once = 0.0;
@@ -164,9 +169,10 @@ int run(const std::string& folder) {
 }  // namespace knotlight
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    fmt::print(stderr, "usage: expected_values_bench DIR\n");
+  const bool few = argc == 3 && std::string(argv[2]) == "--quick";
+  if (argc != 2 && !few) {
+    fmt::print(stderr, "usage: expected_values_bench DIR [--quick]\n");
     return 2;
   }
-  return knotlight::run(argv[1]);
+  return knotlight::run(argv[1], few ? knotlight::quick : knotlight::Effort{});
 }

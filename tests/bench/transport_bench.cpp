@@ -3,13 +3,13 @@
 //
 //   transport_bench slabs [E] > slabs.md
 //   transport_bench shapes > shapes.md
+//   transport_bench slabs|shapes --quick     few photons: that it runs, not what is true
 //
 // E (of the incident power; 0): no standard error of T need be below it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -28,10 +28,7 @@ using testing_scenes::trace;
 using Orders = TracerOptions::Orders;
 
 constexpr double wanted = 1e-3;  // relative standard error
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+constexpr double quick = 1e-3;   // of the photons
 
 // Normal incidence, specular reflection and unscattered transmission included. [vdH80], [G55]
 // (the second) or adding-doubling; `half_digit` is half a unit of the last digit given.
@@ -71,18 +68,17 @@ std::string judged(double share, double n, double exact, double half_digit) {
                      beyond == 0.0 ? 0.0 : beyond / error);
 }
 
-void slab_rows(double least_error) {
+void slab_rows(double least_error, double share) {
   fmt::print(
       "| ior | albedo | b | g | R | exact | rel. std. error | std. errors off | T | exact | rel. "
-      "std. error | std. errors off | photons, M | interactions, M | seconds |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "std. error | std. errors off | photons, M | interactions, M |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::uint64_t seed = 0;  // one per case: under a common one the deviations would be alike
   for (const SlabCase& c : slab_cases) {
-    const double n = std::max(arrivals_for(c.R, c.R_half_digit, 0.0),
-                              arrivals_for(c.T, c.T_half_digit, least_error));
+    const double n = share * std::max(arrivals_for(c.R, c.R_half_digit, 0.0),
+                                      arrivals_for(c.T, c.T_half_digit, least_error));
     // The share of the emitted photons that the mask lets through.
     const double through = testing_scenes::slab_beam_area / (pi * (2.0 * 200.0 * 200.0 + 0.25));
-    const auto start = std::chrono::steady_clock::now();
     const TraceResult r =
         trace(testing_scenes::slab_scene(testing_scenes::slab_medium(c.b, c.albedo, c.g, c.ior)),
               Orders::all, static_cast<std::size_t>(1.01 * n / through), false, 0, ++seed);
@@ -92,9 +88,9 @@ void slab_rows(double least_error) {
     const double R = (slab.reflected + slab.escaped) / slab.incident - T;
     fmt::print("| {} | {} | {} | {} | {} | ", c.ior, c.albedo, c.b, c.g,
                judged(R, arrived, c.R, c.R_half_digit));
-    fmt::print("{} | {:.1f} | {:.0f} | {:.0f} |\n",
+    fmt::print("{} | {:.1f} | {:.0f} |\n",
                T > 0.0 ? judged(T, arrived, c.T, c.T_half_digit) : "0 | 0 | | ", 1e-6 * arrived,
-               1e-6 * arrived * slab.interactions / slab.incident, seconds_since(start));
+               1e-6 * arrived * slab.interactions / slab.incident);
     std::fflush(stdout);
   }
 }
@@ -115,7 +111,7 @@ std::vector<Body> bodies() {
 
 // Uniform light, no absorption. Mean path from the lengths in one cell around the body; U and F in
 // the cells of a 12 x 12 x 12 grid of which 1e-2 or more is inside.
-void shape_rows() {
+void shape_rows(std::size_t photons) {
   fmt::print(
       "| body | sigma_s 4V/S | g | ior | mean path / (n^2 4V/S) | std. error | cells | rms of (U - "
       "n^2) / std. error: collisions | track lengths | rms of F / std. error: collisions | track "
@@ -133,7 +129,7 @@ void shape_rows() {
       std::vector<FluxTally> tallies;
       tallies.emplace_back(FluxGrid{b.lo, b.hi, {1, 1, 1}}, 0, body.shape, medium);
       tallies.emplace_back(FluxGrid{b.lo, b.hi, {12, 12, 12}}, 0, body.shape, medium);
-      const TraceResult r = trace(scene, Orders::all, 3'000'000, false, 2, 1, tallies);
+      const TraceResult r = trace(scene, Orders::all, photons, false, 2, 1, tallies);
       const Flux whole = tallies[0].flux(0, FluxOrder::all, FluxEstimator::track_lengths);
       const double n2 = ior * ior;
       const double path = 4.0 * pi * whole.U * tallies[0].volume(0) / r.audit[0].incident;
@@ -170,12 +166,14 @@ void shape_rows() {
 
 int main(int argc, char** argv) {
   const std::string what = argc >= 2 ? argv[1] : "";
+  const bool few = argc == 3 && std::string(argv[2]) == "--quick";
+  const double share = few ? knotlight::quick : 1.0;
   if (what == "slabs" && argc <= 3) {
-    knotlight::slab_rows(argc == 3 ? std::atof(argv[2]) : 0.0);
-  } else if (what == "shapes" && argc == 2) {
-    knotlight::shape_rows();
+    knotlight::slab_rows(argc == 3 && !few ? std::atof(argv[2]) : 0.0, share);
+  } else if (what == "shapes" && (argc == 2 || few)) {
+    knotlight::shape_rows(static_cast<std::size_t>(share * 3e6));
   } else {
-    fmt::print(stderr, "usage: transport_bench slabs [E] | transport_bench shapes\n");
+    fmt::print(stderr, "usage: transport_bench slabs [E] | shapes | slabs|shapes --quick\n");
     return 2;
   }
   return 0;

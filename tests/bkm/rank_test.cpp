@@ -2,6 +2,7 @@
 //   sinh(lambda|x-y|)/(lambda|x-y|) = sum_l (2l+1) i_l(lambda R)^2 P_l(cos angle),
 // so the singular values come in groups of 2l+1 that fall like i_l^2, faster than geometrically;
 // what is above the cut is l = 0..L, (L+1)^2 in all, however many knots there are.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,9 +22,11 @@ constexpr double cut = 1e-14;
 int rank(int knots, double lambda, double k, double relative_cut = cut) {
   const Surface s = sphere(knots);
   const RadialFunction w{RadialKind::nonsingular, 1.0, 1.0, 0, lambda, 2.0};
-  return DenseSolver(robin_matrix(s.points, s.normals, s.points, k, w),
-                     {DenseMethod::svd, relative_cut})
-      .rank();
+  const int found = DenseSolver(robin_matrix(s.points, s.normals, s.points, k, w),
+                                {DenseMethod::svd, relative_cut})
+                        .rank();
+  testing::Test::RecordProperty(fmt::format("rank_of_{}_knots_at_{:.2f}", knots, lambda), found);
+  return found;
 }
 
 // Five mean free paths, reduced albedo 0.9: lambda R = 2.74.
