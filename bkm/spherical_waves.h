@@ -14,7 +14,7 @@ namespace knotlight {
 // radius rho, so matrices of them need no scaling. lambda >= 0; lambda = 0 gives solid harmonics.
 class SphericalWaves {
  public:
-  // degree 0..10; lambda: 1/length; rho: length. lambda rho up to some hundreds: terms of the
+  // degree 0..20; lambda: 1/length; rho: length. lambda rho up to some hundreds: terms of the
   // series in between grow as exp(lambda rho).
   SphericalWaves(int degree, double lambda, double rho);
 
@@ -30,7 +30,7 @@ class SphericalWaves {
   Vec3 gradient(const Vec3& x, const Eigen::Ref<const Eigen::VectorXd>& beta) const;
 
  private:
-  static constexpr int max_degree = 10;
+  static constexpr int max_degree = 20;
   static constexpr int max_size = (max_degree + 1) * (max_degree + 1);
   // Values, and where gradients is not null the 3 x size() gradients.
   void evaluate(const Vec3& x, double* value, double* gradient) const;

@@ -150,9 +150,7 @@ StudyFindings redo_singular_values(StudyBench& bench) {
 
 }  // namespace
 
-// Knots on the Fibonacci lattice, evenly spread.
-int ball_rank(int count, double lambda, double k) {
-  constexpr double cut = 1e-14;
+SurfaceSamples fibonacci_knots(int count) {
   std::vector<SurfacePoint> points;
   for (int i = 0; i < count; ++i) {
     const double z = 1.0 - (2.0 * i + 1.0) / count, rho = std::sqrt(1.0 - z * z);
@@ -160,7 +158,12 @@ int ball_rank(int count, double lambda, double k) {
     const Vec3 x(rho * std::cos(phi), rho * std::sin(phi), z);
     points.push_back({x, x});
   }
-  const SurfaceSamples knots = columns(points);
+  return columns(points);
+}
+
+int ball_rank(int count, double lambda, double k) {
+  constexpr double cut = 1e-14;
+  const SurfaceSamples knots = fibonacci_knots(count);
   RadialFunction wave;
   wave.kind = RadialKind::nonsingular;
   wave.order = 0;

@@ -11,9 +11,10 @@ namespace knotlight {
 
 const std::vector<Study>& studies() {
   static const std::vector<Study> all{
-      manufactured_study(), precision_study(),   layouts_study(),          singular_values_study(),
-      svd_drivers_study(),  oscillation_study(), radial_functions_study(), interior_points_study(),
-      knots_study(),        scaling_study(),     inversion_study(),        models_study()};
+      manufactured_study(), precision_study(),   layouts_study(),           singular_values_study(),
+      svd_drivers_study(),  oscillation_study(), radial_functions_study(),  interior_points_study(),
+      knots_study(),        scaling_study(),     inversion_study(),         models_study(),
+      rescaling_study(),    flat_limit_study(),  boundary_particle_study(), heterogeneous_study()};
   return all;
 }
 

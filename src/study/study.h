@@ -62,7 +62,7 @@ struct Study {
   std::vector<std::string> needs = {};  // files in StudyOptions::scenes
 };
 
-// In the order of the thesis's chapter 7; the one of chapter 6 comes last but one.
+// In the order of the thesis's chapter 7, then its chapters 6.3, fig. 7.14 and 8.2.
 const std::vector<Study>& studies();
 
 // Those that a name stands for: one, or for `all` every one. InputError for any other name.

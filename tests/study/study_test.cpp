@@ -18,10 +18,11 @@ TEST(Studies, AreAllThereUnderNamesOfTheirOwn) {
     EXPECT_TRUE(names.insert(study.name).second) << study.name;
     EXPECT_FALSE(study.title.empty() || study.place.empty() || study.thesis.empty());
   }
-  EXPECT_EQ(names,
-            (std::set<std::string>{"manufactured", "precision", "layouts", "singular-values",
-                                   "svd-drivers", "oscillation", "radial-functions",
-                                   "interior-points", "knots", "scaling", "inversion", "models"}));
+  EXPECT_EQ(names, (std::set<std::string>{"manufactured", "precision", "layouts", "singular-values",
+                                          "svd-drivers", "oscillation", "radial-functions",
+                                          "interior-points", "knots", "scaling", "inversion",
+                                          "models", "rescaling", "flat-limit", "boundary-particle",
+                                          "heterogeneous"}));
   EXPECT_EQ(chosen_studies("all").size(), names.size());
   EXPECT_EQ(chosen_studies("knots").front().name, "knots");
 }
