@@ -306,7 +306,7 @@ const char* const dual = "after its method: dual reciprocity";
 const char* const chained = "boundary particles, one operator";
 const char* const as_charges = "as it should be: photons as charges, sources outside";
 
-const char* const why =
+const char* const why_particles =
     "Where the chain ends, the method is as good as its name: for L f = 0, 384 knots give 8e-7 "
     "where dual reciprocity with 727 gives 7e-6, in half of the time, there being no knots inside. "
     "(One matrix serves all steps; the boundary condition of diffusion needs a second one.) With "
@@ -412,7 +412,7 @@ StudyFindings redo_boundary_particle(StudyBench& bench) {
               [&] { return charges(p, photons_of(p, photons, seed), n); });
     }
   }
-  return {{std::move(table), noise_table(quick, n, seed)}, {std::move(chart)}, why};
+  return {{std::move(table), noise_table(quick, n, seed)}, {std::move(chart)}, why_particles};
 }
 
 }  // namespace

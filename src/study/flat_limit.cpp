@@ -240,7 +240,7 @@ Answer by_sources_outside(const Body& body, double lambda, const Eigen::MatrixXd
   return answer;
 }
 
-const char* const why =
+const char* const why_flat =
     "All of these do give back what rounding took. On a ball with lambda R = 0.02 the "
     "pseudo-inverse stops at 2e-7; with 31 digits, by the addition theorem or by the rational "
     "function the same functions give 1e-13 and better, and of a condition of 1e33 or more the "
@@ -360,7 +360,7 @@ StudyFindings redo_flat_limit(StudyBench& bench) {
       }
     }
   StudyTable sharper = spot_table(quick, seed, sharp);
-  return {{std::move(table), std::move(sharper)}, {std::move(smooth), std::move(sharp)}, why};
+  return {{std::move(table), std::move(sharper)}, {std::move(smooth), std::move(sharp)}, why_flat};
 }
 
 }  // namespace

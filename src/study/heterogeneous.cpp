@@ -200,7 +200,7 @@ StudyTable ball_table(const StudyOptions& options, const Workers& workers) {
     const Errors other = of_constant_extinction(a);
     for (const int shells : options.quick ? std::vector{4, 8} : std::vector{4, 8, 16}) {
       const VolumeCells cells = cells_of_ball(shells);
-      const Outcome o =
+      Outcome o =
           correct(c, body, cells, at_columns(cells.centers, c.sigma), CorrectionMethod::gmres);
       table.rows.push_back({a.shape(), a.contrast, 2.0 * shells, o.cells, o.iterations(),
                             o.errors.inside, o.errors.surface, o.seconds, other.inside,
@@ -284,13 +284,18 @@ double cube_source(const Absorption& a, const Vec3& x) {
   return 3.0 * (cube_sigma_t - sigma_a) * cube_sigma_t / (4.0 * pi);
 }
 
+// Of place `at` among n^3 in rows of rows of rows.
+Vec3 lattice_place(int at, int n) {
+  return Eigen::Vector3i(at / (n * n), at / n % n, at % n).cast<double>();
+}
+
 // Over 4^3 points of the cube of this edge about x; edge 0: at x.
 double mean_over_cell(const std::function<double(const Vec3&)>& f, const Vec3& x, double edge) {
   constexpr int n = 4;
   if (edge == 0.0) return f(x);
   double sum = 0.0;
   for (int i = 0; i < n * n * n; ++i)
-    sum += f(x + edge / n * (Vec3(i / (n * n), i / n % n, i % n) - Vec3::Constant(0.5 * (n - 1))));
+    sum += f(x + edge / n * (lattice_place(i, n) - Vec3::Constant(0.5 * (n - 1))));
   return sum / (n * n * n);
 }
 
@@ -339,7 +344,7 @@ Case cube_case(const Absorption& a, const Differences& truth, bool quick) {
     std::vector<Vec3> points;
     std::vector<double> values;
     for (int at = 0; at < truth.values.size(); ++at) {
-      const Vec3 x(at / (m * m), at / m % m, at % m);
+      const Vec3 x = lattice_place(at, m);
       if ((x.minCoeff() == 0.0 || x.maxCoeff() == check_cells) != on_surface) continue;
       points.push_back(cube_side / check_cells * x);
       values.push_back(truth.values[at]);
@@ -398,7 +403,7 @@ void add_cube(StudyFindings& findings, const StudyOptions& options, const Worker
                              bool averaged) {
       const VolumeCells cells = cells_of_cube(n, cube_side);
       const double edge = averaged ? cube_side / n : 0.0;
-      const Outcome o =
+      Outcome o =
           correct(c, body, cells,
                   at_columns(cells.centers,
                              [&](const Vec3& x) { return mean_over_cell(c.sigma, x, edge); }),

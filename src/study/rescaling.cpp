@@ -16,8 +16,8 @@
 namespace knotlight {
 namespace {
 
-constexpr double side = 2.0;         // of the cube of the known solution
-constexpr double known_width = 2.0;  // of the Gaussians, as in the study of fig. 7.1
+constexpr double side = 2.0;          // of the cube of the known solution
+constexpr double width_of_one = 2.0;  // of the Gaussians, as in the study of fig. 7.1
 
 // Digits that the values have in common, of the largest: 15.7 is all of them.
 double digits_in_common(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -43,7 +43,7 @@ Scaled scaled_body(const ManufacturedProblem& p, double s) {
   problem.boundary_points *= s;
   problem.interior_points *= s;
   BkmThesisOptions options;
-  options.c = known_width * s;
+  options.c = width_of_one * s;
   const BkmThesisSolver solver(problem, options);
   const Points checks = s * manufactured_checks();
 
