@@ -12,7 +12,6 @@
 #include "core/errors.h"
 #include "core/file_io.h"
 #include "pipeline/scene_setup.h"
-#include "scene/refracts.h"
 
 namespace knotlight {
 namespace {
@@ -137,12 +136,13 @@ void write_tables(const Comparison& c, const std::filesystem::path& folder) {
   write_text_file((folder / "budgets.csv").string(), budgets_csv(c));
 }
 
-// Fields are compared as P1 has them. Gathered pictures of refracting objects need photons inside
-// them, which most models do not have.
+// Fields are compared as P1 has them, and so are pictures: gathered ones would show the noise of
+// their samples beside the models, and need photons inside refracting objects, which most models do
+// not have.
 void choose_for_comparison(Scene& scene) {
   scene.solver.diffusion = Diffusion::p1;
   scene.solver.photons_at_most = false;
-  if (!scene.solver.exitance && anything_refracts(scene)) scene.solver.exitance = Exitance::p1;
+  if (!scene.solver.exitance) scene.solver.exitance = Exitance::p1;
 }
 
 }  // namespace
