@@ -147,6 +147,9 @@ ChartedScene chart_scene(const std::string& path, const std::string& folder,
     }
   }
   result.measurements = measuring.all();
+  write_text_file(in_folder("points.csv"), points_csv(by));
+  if (const std::string file = in_folder("finite_elements.csv"); fs::exists(file))
+    for (Measurement& m : read_measurements(file)) result.measurements.push_back(std::move(m));
   write_text_file(in_folder("index.html"), chart_page(result));
   for (const auto& [name, svg] : chart_svgs(result))
     write_text_file(in_folder((name + ".svg").c_str()),

@@ -46,5 +46,6 @@ inline constexpr const char* our_field_line = "grid, p1";
 inline constexpr const char* dipole_line = "dipole";
 inline constexpr const char* better_dipole_line = "dipole, better form";
 inline constexpr const char* path_tracing_line = "path tracing";
+inline constexpr const char* finite_elements_line = "finite elements";  // of another program
 
 }  // namespace knotlight

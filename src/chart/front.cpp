@@ -26,7 +26,8 @@ double seconds_of(const Measurement& m, Quantity quantity) {
 }
 
 bool is_rival(const Measurement& m) {
-  return m.line == dipole_line || m.line == better_dipole_line || m.line == path_tracing_line;
+  return m.line == dipole_line || m.line == better_dipole_line || m.line == path_tracing_line ||
+         m.line == finite_elements_line;
 }
 
 std::vector<Measurement> pareto_front(const std::vector<Measurement>& all, Quantity quantity) {

@@ -35,7 +35,7 @@ bool of_field(const std::string& line) {
   return line == our_field_line || begins(line, "grid, irr") || begins(line, "grid, bound") ||
          line == "lbkm, p1" || line == "mfs, p1" || line == "bkm, p1" ||
          line == "bkm_thesis, photon_map" || line == "bkm_thesis, irradiance_thesis" ||
-         begins(line, dipole_line);
+         begins(line, dipole_line) || line == finite_elements_line;
 }
 bool of_thesis(const std::string& line) {
   return begins(line, "bkm_thesis") || line == our_field_line;
@@ -156,10 +156,13 @@ struct Rival {
   const char* name;
   const char* line;
 };
-const std::vector<Rival> field_rivals = {
-    {"lbkm", "lbkm, p1"},    {"mfs (exterior sources)", "mfs, p1"},
-    {"bkm", "bkm, p1"},      {"bkm_thesis", "bkm_thesis, photon_map"},
-    {"dipole", dipole_line}, {"dipole, better form", better_dipole_line}};
+const std::vector<Rival> field_rivals = {{"lbkm", "lbkm, p1"},
+                                         {"mfs (exterior sources)", "mfs, p1"},
+                                         {"bkm", "bkm, p1"},
+                                         {"bkm_thesis", "bkm_thesis, photon_map"},
+                                         {"dipole", dipole_line},
+                                         {"dipole, better form", better_dipole_line},
+                                         {"finite elements", finite_elements_line}};
 const std::vector<Rival> picture_rivals = {{"lbkm", "lbkm"},
                                            {"mfs (exterior sources)", "mfs"},
                                            {"bkm", "bkm"},
@@ -181,6 +184,8 @@ std::string ratio(const ChartedScene& scene, const char* line, Quantity quantity
     return fmt::format("{}{:.3g}", theirs->extrapolated ? "~" : "",
                        theirs->seconds / ours->seconds);
   if (theirs) return "-";
+  const auto measured = [&](const Measurement& m) { return m.line == line; };
+  if (std::none_of(scene.measurements.begin(), scene.measurements.end(), measured)) return "-";
   const double least = least_error(scene.measurements, line, quantity);
   if (!std::isfinite(least)) return "not trusted";
   return fmt::format("at best {:.2g} %{}", 100.0 * least, scene.untried > 0 ? " so far" : "");

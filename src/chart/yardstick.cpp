@@ -9,6 +9,7 @@
 #include "core/clock.h"
 #include "core/errors.h"
 #include "core/file_io.h"
+#include "core/not_finite.h"
 #include "pipeline/glow.h"
 #include "pipeline/plan.h"
 #include "reference/path_film.h"
@@ -116,6 +117,20 @@ std::string model_of(SolverSettings settings) {
                      diffusion == Diffusion::p1           ? "p1"
                      : diffusion == Diffusion::asymptotic ? "asymptotic"
                                                           : "grosjean");
+}
+
+std::string points_csv(const Yardstick& by) {
+  std::vector<std::vector<std::string>> rows;
+  Eigen::Index at = 0;
+  for (const SurfaceSamples& points : by.checks.objects)
+    for (Eigen::Index i = 0; i < points.positions.cols(); ++i, ++at) {
+      std::vector<std::string> row;
+      for (const double x : points.positions.col(i)) row.push_back(csv_number(x));
+      row.push_back(csv_number(by.checks.areas[at]));
+      row.push_back(csv_number(by.field().size() > 0 ? by.field()[at] : nan));
+      rows.push_back(std::move(row));
+    }
+  return csv_text({"x", "y", "z", "area", "U_d"}, rows);
 }
 
 Yardstick make_yardstick(PreparedScene& prepared, const std::vector<SolverSettings>& settings,

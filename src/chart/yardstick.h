@@ -31,6 +31,10 @@ struct Yardstick {
   const Eigen::VectorXd& field() const;
 };
 
+// Where fields are compared and what by.field() is there, for other programs: x, y, z, the area
+// each point stands for, U_d (nan: the converged run failed).
+std::string points_csv(const Yardstick& by);
+
 // Source, exitance and diffusion of the settings as pictures take them: what remains when
 // everything has converged. Empty for irradiance_thesis, which converges to nothing.
 std::string model_of(SolverSettings settings);

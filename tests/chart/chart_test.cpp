@@ -7,9 +7,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "chart/front.h"
 #include "core/errors.h"
+#include "report/csv.h"
 #include "support/scene_files.h"
 
 namespace knotlight {
@@ -100,6 +102,24 @@ TEST(Chart, MeasuresOnceAndGoesOnWhereItWasStopped) {
   EXPECT_EQ(after.back().name(), last.name());
   EXPECT_EQ(after.back().picture.error, last.picture.error);
 
+  // What another program measured stands beside them, and is not taken for ours.
+  Measurement elements;
+  elements.line = finite_elements_line;
+  elements.setting = "so many tetrahedra";
+  elements.field_seconds = 1e-4;
+  elements.field.error = 1e-4;
+  scratch.write("out/finite_elements.csv", measurements_csv({elements}));
+  chart_scenes({scene}, scratch.path("out"), small, run);
+  const std::string page = contents(scratch.path("out/index.html"));
+  EXPECT_NE(page.find("<td>so many tetrahedra</td>"), std::string::npos);
+  EXPECT_NE(contents(scratch.path("out/field.svg")).find(finite_elements_line), std::string::npos);
+  EXPECT_EQ(contents(scratch.path("out/picture-methods.svg")).find(finite_elements_line),
+            std::string::npos);
+  EXPECT_EQ(contents(table).find(finite_elements_line), std::string::npos);
+  scratch.write("out/finite_elements.csv", "line\n");
+  EXPECT_THROW(chart_scenes({scene}, scratch.path("out"), small, run), InputError);
+  scratch.write("out/finite_elements.csv", measurements_csv({}));
+
   std::string other = ball;
   other.replace(other.find("sigma_s: 5"), 10, "sigma_s: 6");
   try {
@@ -108,6 +128,21 @@ TEST(Chart, MeasuresOnceAndGoesOnWhereItWasStopped) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("another scene"), std::string::npos) << error.what();
   }
+}
+
+// For other programs: where the field is compared, and what it is there.
+void expect_points_of_the_ball(const std::string& file) {
+  const auto rows = read_csv(file);
+  ASSERT_EQ(rows.size(), 1U + 2048U);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"x", "y", "z", "area", "U_d"}));
+  double area = 0.0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const Vec3 x(std::stod(rows[i][0]), std::stod(rows[i][1]), std::stod(rows[i][2]));
+    EXPECT_NEAR(x.norm(), 1.0, 1e-9);
+    area += std::stod(rows[i][3]);
+    EXPECT_GT(std::stod(rows[i][4]), 0.0);
+  }
+  EXPECT_NEAR(area, 4.0 * std::numbers::pi, 1e-9);
 }
 
 TEST(Chart, SeveralScenesShareATable) {
@@ -120,6 +155,8 @@ TEST(Chart, SeveralScenesShareATable) {
   const std::string table = contents(scratch.path("out/ratios.csv"));
   EXPECT_EQ(table.substr(0, table.find('\n')), "of,error,seconds or ratio,a,b");
   EXPECT_NE(table.find("path tracing / knotlight"), std::string::npos);
+  expect_points_of_the_ball(scratch.path("out/a/points.csv"));
+  EXPECT_NE(table.find("field,2 %,finite elements / knotlight,-,-"), std::string::npos) << table;
   EXPECT_NE(contents(scratch.path("out/a/index.html")).find("left out for lack of time"),
             std::string::npos);
 }

@@ -38,6 +38,14 @@ TEST(Front, CheapestIsOursAndTrusted) {
   EXPECT_FALSE(cheapest(some, Quantity::picture, 0.005));
 }
 
+TEST(Front, OtherProgramsAreRivals) {
+  std::vector<Measurement> all = some;
+  all.push_back(measured(finite_elements_line, 0.01, 0.001));
+  EXPECT_EQ(pareto_front(all, Quantity::picture).front().line, finite_elements_line);
+  EXPECT_EQ(cheapest(all, Quantity::picture, 0.02)->picture_seconds, 4.0);
+  EXPECT_EQ(seconds_for(all, finite_elements_line, Quantity::picture, 0.02)->seconds, 0.01);
+}
+
 TEST(Front, PathTracingIsExtrapolatedByItsLaw) {
   const auto half = seconds_for(some, path_tracing_line, Quantity::picture, 0.02);
   ASSERT_TRUE(half);

@@ -36,6 +36,11 @@ class Page:
     def knotlight(self, *arguments: object, allowed: tuple[int, ...] = (0,)) -> str:
         return self.run([self._program, *arguments], allowed)
 
+    def finite_elements(self, scene: str, folder: Path, levels: int) -> None:
+        """The optional rival, on the scene of a chart's folder; needs Debian's Python for its packages."""
+        self.run(["/usr/bin/python3", "-B", ROOT / "tests/bars/fem.py", scene, folder, "--program", self._program,
+                  "--levels", levels])
+
     def benchmark(self, program: str, *arguments: object) -> str:
         """`program` as its place in the build's folder tests: bench/bkm_bench, bars/bars."""
         if self._benchmarks is None:
