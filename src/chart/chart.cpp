@@ -63,18 +63,22 @@ class Measuring {
     if (!fs::exists(file_)) return;
     measured_ = read_measurements(file_);
     for (const Measurement& m : measured_)
-      if (std::isfinite(m.wall_seconds)) last_[m.line] = repeats * m.wall_seconds;
+      if (std::isfinite(m.wall_seconds)) {
+        last_[m.line] = repeats * m.wall_seconds;
+        spent_ += repeats * m.wall_seconds;
+      }
   }
 
   bool has(const Contender& contender) const {
     return std::any_of(measured_.begin(), measured_.end(),
                        [&](const Measurement& m) { return m.name() == contender.name(); });
   }
-  // Whether there is time for it, by what the line took before.
+  // Whether there is time for it, by what the line took before. What was measured by an earlier run
+  // in the folder counts.
   bool affords(const Contender& contender) const {
     const auto before = last_.find(contender.line);
     const double expected = before == last_.end() ? 0.0 : growth * before->second;
-    return seconds_since(start_) + expected <= budget_;
+    return spent_ + seconds_since(start_) + expected <= budget_;
   }
   void add(const Measurement& m, double seconds) {
     measured_.push_back(m);
@@ -86,6 +90,7 @@ class Measuring {
  private:
   std::string file_;
   double budget_;
+  double spent_ = 0.0;  // by earlier runs
   Clock::time_point start_ = Clock::now();
   std::map<std::string, double> last_;  // seconds of the last level of each line
   std::vector<Measurement> measured_;

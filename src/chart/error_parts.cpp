@@ -39,7 +39,7 @@ ErrorParts error_parts(const std::vector<Eigen::VectorXd>& values, const Eigen::
   }
   if (converged.size() == 0) return result;
   result.numerical = without(error(mean, converged), result.noise / std::sqrt(n));
-  result.model = without(error(converged, truth), truth_noise);
+  result.model = std::max(without(error(converged, truth), truth_noise), hidden);
   return result;
 }
 

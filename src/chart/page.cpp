@@ -183,12 +183,14 @@ std::string ratio(const ChartedScene& scene, const char* line, Quantity quantity
   if (theirs && ours)
     return fmt::format("{}{:.3g}", theirs->extrapolated ? "~" : "",
                        theirs->seconds / ours->seconds);
-  if (theirs) return "-";
+  if (theirs)
+    return fmt::format("{}{:.3g} s, ours never", theirs->extrapolated ? "~" : "", theirs->seconds);
   const auto measured = [&](const Measurement& m) { return m.line == line; };
-  if (std::none_of(scene.measurements.begin(), scene.measurements.end(), measured)) return "-";
+  if (std::none_of(scene.measurements.begin(), scene.measurements.end(), measured))
+    return "not measured";
   const double least = least_error(scene.measurements, line, quantity);
   if (!std::isfinite(least)) return "not trusted";
-  return fmt::format("at best {:.2g} %{}", 100.0 * least, scene.untried > 0 ? " so far" : "");
+  return fmt::format("at best {:.3g} %{}", 100.0 * least, scene.untried > 0 ? " so far" : "");
 }
 
 // Per scene: our seconds, what the best of all our settings would take, a row for each rival.
@@ -202,9 +204,9 @@ std::vector<std::vector<std::string>> ratio_rows(const std::vector<ChartedScene>
   for (const ChartedScene& scene : scenes) {
     const auto own = seconds_for(scene.measurements, our_line(quantity), quantity, error);
     const auto best = cheapest(scene.measurements, quantity, error);
+    const double least = least_error(scene.measurements, our_line(quantity), quantity);
     const std::string none =
-        fmt::format("at best {}",
-                    percent_or_dash(least_error(scene.measurements, our_line(quantity), quantity)));
+        std::isfinite(least) ? fmt::format("at best {:.3g} %", 100.0 * least) : "not trusted";
     rows[0].push_back(own ? number_or_dash(own->seconds) : none);
     rows[1].push_back(own && best ? number_or_dash(seconds_of(*best, quantity) / own->seconds)
                                   : "-");

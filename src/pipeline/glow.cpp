@@ -105,13 +105,12 @@ GlowingSurfaces glowing_surfaces(const PreparedScene& prepared, const SolvedScen
           U_d = *solution.on_grid;
         } else {
           if (!nodes) {
-            geometry = std::make_shared<GridGeometry>(
-                object.shape, grid_cell_size(object, scene.channels, scene.solver).h, run.workers);
-            if (!geometry->ok())
+            geometry = resolving_geometry(object, scene.channels, scene.solver, run.workers);
+            if (!geometry->resolved())
               throw InputError(fmt::format(
-                  "object '{}': no grid can hold it ({}), expected solver.exitance p1, lambert or "
+                  "object '{}': no grid resolves it ({}), expected solver.exitance p1, lambert or "
                   "mean_intensity",
-                  object.name, geometry->failure()));
+                  object.name, geometry->unresolved()));
             nodes = grid_nodes(*geometry, *prepared.caster, index, run.workers);
           }
           U_d = GridField(geometry, 2.0 * evaluate(solution, nodes->middle, run.workers) -

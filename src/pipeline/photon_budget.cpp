@@ -47,7 +47,8 @@ std::size_t photons_needed(const Report& solution, std::size_t tried, std::size_
       // Dark, or hard to find: only more photons can tell.
       if (channel.photons == 0) return most;
       const double own = channel.noise / accepted(channel, tolerance);
-      excess = excess >= own ? excess : own;  // not-a-number stays
+      if (!(own <= excess)) excess = own;
+      if (std::isnan(excess)) return most;
     }
   if (excess <= 1.0) return tried;
   const double growth = std::max(std::pow(excess / noise_wanted, 1.0 / noise_order), least_growth);

@@ -72,20 +72,27 @@ CellSize grid_cell_size(const Object& object, int channels, const SolverSettings
                        cell_budget(settings.tolerance));
 }
 
-ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
-                       const Workers& workers) {
-  ObjectGrids grids;
-  grids.cell_size = grid_cell_size(object, channels, settings).h;
+std::shared_ptr<const GridGeometry> resolving_geometry(const Object& object, int channels,
+                                                       const SolverSettings& settings,
+                                                       const Workers& workers) {
+  double h = grid_cell_size(object, channels, settings).h;
   SolverSettings usual = settings;
   usual.tolerance = SolverSettings().tolerance;
   const double least = grid_cell_size(object, channels, usual).h;
-  grids.fine = std::make_shared<GridGeometry>(object.shape, grids.cell_size, workers);
-  while (!grids.fine->resolved() && grids.cell_size > least) {
-    grids.cell_size = std::max(least, shrink * grids.cell_size);
-    grids.fine = std::make_shared<GridGeometry>(object.shape, grids.cell_size, workers);
+  auto geometry = std::make_shared<GridGeometry>(object.shape, h, workers);
+  while (!geometry->resolved() && h > least) {
+    h = std::max(least, shrink * h);
+    geometry = std::make_shared<GridGeometry>(object.shape, h, workers);
   }
-  if (!grids.fine->ok() || !grids.fine->has_nested_coarse())
-    grids.coarse = std::make_shared<GridGeometry>(object.shape, 2.0 * grids.cell_size, workers);
+  return geometry;
+}
+
+ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
+                       const Workers& workers) {
+  ObjectGrids grids;
+  grids.fine = resolving_geometry(object, channels, settings, workers);
+  if (grids.fine->ok() && !grids.fine->has_nested_coarse())
+    grids.coarse = std::make_shared<GridGeometry>(object.shape, 2.0 * grids.fine->h(), workers);
   return grids;
 }
 
@@ -114,7 +121,7 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
   const Eigen::VectorXd u = field.values(checks.positions, checks.normals);
   const GridErrorEstimate estimate =
       estimate_error(field, coarse.field, checks.positions, checks.normals,
-                     p.coefficients.lambda * grids.cell_size);
+                     p.coefficients.lambda * grids.fine->h());
   // Both relative to the rms over the surface.
   solution.numerical_error =
       relative(estimate.rms * estimate.scale, root_mean_square(u)) + mean.residual;
@@ -128,7 +135,7 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
   if (!grids.fine->resolved())
     solution.failures.push_back("the grid does not resolve the object: " +
                                 grids.fine->unresolved());
-  const double cell_in_mean_free_paths = grids.cell_size * p.medium.sigma_tr();
+  const double cell_in_mean_free_paths = grids.fine->h() * p.medium.sigma_tr();
   if (cell_in_mean_free_paths > coarsest_cells)
     solution.failures.push_back(
         fmt::format("cells of {:.2g} transport mean free paths do not resolve the light's first "
@@ -140,7 +147,7 @@ ChannelSolution solve_by_grid(const ChannelProblem& p) {
     solution.failures.push_back(fmt::format("{:.2g} of the sources found no cell", lost));
 
   solution.figures = {{"cells", static_cast<double>(grids.fine->quality().cells)},
-                      {"cell_size", grids.cell_size},
+                      {"cell_size", grids.fine->h()},
                       {"cell_size_in_transport_mean_free_paths", cell_in_mean_free_paths},
                       {"iterations", static_cast<double>(mean.iterations)},
                       {"linear_residual", mean.residual},

@@ -11,7 +11,6 @@ namespace knotlight {
 
 // An object on cells of size h and, for the error estimate, 2 h.
 struct ObjectGrids {
-  double cell_size = 0.0;  // h, length
   std::shared_ptr<const GridGeometry> fine;
   // Null if the fine grid's own second level will do.
   std::shared_ptr<const GridGeometry> coarse;
@@ -19,6 +18,11 @@ struct ObjectGrids {
 
 // Cells small enough for every channel of the object, if the budget allows.
 CellSize grid_cell_size(const Object& object, int channels, const SolverSettings& settings);
+// Cells of that size, or smaller ones if it is the tolerance's coarseness that keeps them from
+// resolving the shape.
+std::shared_ptr<const GridGeometry> resolving_geometry(const Object& object, int channels,
+                                                       const SolverSettings& settings,
+                                                       const Workers& workers);
 ObjectGrids make_grids(const Object& object, int channels, const SolverSettings& settings,
                        const Workers& workers);
 

@@ -59,9 +59,9 @@ TEST(PhotonBudget, GuessesFromTheNoise) {
     report.objects = {ObjectReport{}};
     report.objects[0].channels.resize(2);
     for (ChannelReport& channel : report.objects[0].channels) channel.photons = 500;
-    report.objects[0].channels[0].noise = 0.001;
-    report.objects[0].channels[1].noise = noise;
-    report.objects[0].channels[1].numerical_error = numerical_error;
+    report.objects[0].channels[0].noise = noise;
+    report.objects[0].channels[0].numerical_error = numerical_error;
+    report.objects[0].channels[1].noise = 0.001;
     return photons_needed(report, 1'000, 16'000, 0.01);
   };
   EXPECT_EQ(needed(0.006, 0.0), 1'000U);

@@ -28,13 +28,13 @@ TEST(MakeGrids, CoarseTolerancesStillResolveThinShapes) {
   ASSERT_FALSE(GridGeometry(plate.shape, by_rule, Workers(1)).resolved());
   const ObjectGrids grids = make_grids(plate, 1, at(0.3), Workers(1));
   EXPECT_TRUE(grids.fine->resolved()) << grids.fine->unresolved();
-  EXPECT_LT(grids.cell_size, by_rule);
-  EXPECT_GE(grids.cell_size, grid_cell_size(plate, 1, at(0.01)).h);
+  EXPECT_LT(grids.fine->h(), by_rule);
+  EXPECT_GE(grids.fine->h(), grid_cell_size(plate, 1, at(0.01)).h);
 }
 
 TEST(MakeGrids, OtherShapesHaveCellsByTheRule) {
   const Object ball = body(Sphere{});
-  EXPECT_EQ(make_grids(ball, 1, at(0.04), Workers(1)).cell_size,
+  EXPECT_EQ(make_grids(ball, 1, at(0.04), Workers(1)).fine->h(),
             grid_cell_size(ball, 1, at(0.04)).h);
 }
 
