@@ -105,7 +105,12 @@ CorrectedField correct_absorption(const AbsorptionProblem& p, CorrectionMethod m
   const Eigen::VectorXd b = p.lit.values(p.cells.centers);
   CorrectedField result;
   result.residuals = {1.0};
-  (method == CorrectionMethod::gmres ? gmres : richardson)(apply, b, tolerance, most, result);
+  if (b.isZero(0.0)) {  // dark
+    result.U = b;
+    result.converged = true;
+  } else {
+    (method == CorrectionMethod::gmres ? gmres : richardson)(apply, b, tolerance, most, result);
+  }
   result.absorbed =
       std::make_shared<const ChargeField>(p.solver.field(p.cells, -excess.cwiseProduct(result.U)));
   return result;

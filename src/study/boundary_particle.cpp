@@ -321,7 +321,8 @@ const char* const why_particles =
     "already. From photons' densities the noise grows tenfold and more with each step, from 0.5 % "
     "of f to 50 times what is asked for, so that the third step does more harm than good. The "
     "method trades knots inside for derivatives of the source, and those are what light does not "
-    "have. Photons as charges need neither: their error is the noise of 100 000 photons, "
+    "have. Photons as charges need neither: their error is the noise of 100 000 photons and, "
+    "about as large, what images leave at the edges (for the lamp also the truth's own error), "
     "whatever the source looks like.";
 
 StudyTable noise_table(bool quick, int n, std::uint64_t seed) {

@@ -360,7 +360,8 @@ Case cube_case(const Absorption& a, const Differences& truth, bool quick) {
 void add_cube(StudyFindings& findings, const StudyOptions& options, const Workers& workers) {
   StudyTable table{
       "",
-      "A cube of ten mean free paths, albedo 0.996, lit from below; in it a block of a twelfth of "
+      "A cube of ten mean free paths, albedo 0.996, lit from below; in it a block of a fourteenth "
+      "of "
       "its volume, sharp, or a bell, smooth, that absorbs more. Cells: of the homogeneous body's "
       "charges. Errors: rms over 343 points inside and 386 on the surface over the rms of the "
       "field, "
@@ -445,9 +446,11 @@ StudyFindings redo_heterogeneous(StudyBench& bench) {
       "charge like a photon, whose field in the homogeneous body is known. So neither Berger's "
       "operator nor another function is needed: the boundary matrix is factored once, and what "
       "remains is an equation for the field at the cells that differ, which GMRES solves in two to "
-      "seven steps at any contrast. The error falls with the square of the cells' size and grows "
-      "with contrast, as cells have to be small beside 1/lambda of the darkest part; on the "
-      "surface, which is what one sees, it is several times smaller than inside. Without GMRES "
+      "seven steps at any contrast. In the ball's sharp core the error falls with the square of "
+      "the cells' size; it grows with contrast, as cells have to be small beside 1/lambda of the "
+      "darkest part, and on the ball's surface, which is what one sees, it is several times "
+      "smaller than inside. In the cube 0.2 % inside and 0.4 % on the surface are those of the "
+      "homogeneous solver. Without GMRES "
       "each step multiplies what is left by up to (sigma - sigma0)/(sigma0 + mu), sigma = lambda^2 "
       "and mu the lowest eigenvalue of -lap under the same boundary condition: the Born series "
       "explodes at a contrast of 100. About the absorption half-way it converges at any contrast, "
