@@ -184,7 +184,8 @@ std::string ratio(const ChartedScene& scene, const char* line, Quantity quantity
     return fmt::format("{}{:.3g}", theirs->extrapolated ? "~" : "",
                        theirs->seconds / ours->seconds);
   if (theirs)
-    return fmt::format("{}{:.3g} s, ours never", theirs->extrapolated ? "~" : "", theirs->seconds);
+    return fmt::format("{}{:.3g} s, ours not so near", theirs->extrapolated ? "~" : "",
+                       theirs->seconds);
   const auto measured = [&](const Measurement& m) { return m.line == line; };
   if (std::none_of(scene.measurements.begin(), scene.measurements.end(), measured))
     return "not measured";

@@ -156,7 +156,9 @@ TEST(Chart, SeveralScenesShareATable) {
   EXPECT_EQ(table.substr(0, table.find('\n')), "of,error,seconds or ratio,a,b");
   EXPECT_NE(table.find("path tracing / knotlight"), std::string::npos);
   expect_points_of_the_ball(scratch.path("out/a/points.csv"));
-  EXPECT_NE(table.find("field,2 %,finite elements / knotlight,not measured,not measured"), std::string::npos) << table;
+  EXPECT_NE(table.find("field,2 %,finite elements / knotlight,not measured,not measured"),
+            std::string::npos)
+      << table;
   EXPECT_NE(contents(scratch.path("out/a/index.html")).find("left out for lack of time"),
             std::string::npos);
 }
