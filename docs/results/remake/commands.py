@@ -34,6 +34,8 @@ def make_chart(page: Page) -> None:
         page.knotlight(*command)  # measures nothing again, but shows them
     for scene in scenes:
         page.save(f"docs/results/chart/{scene}.csv", folder / scene / "measurements.csv")
+        if (folder / scene / "finite_elements.csv").exists():
+            page.save(f"docs/results/chart/{scene}-finite-elements.csv", folder / scene / "finite_elements.csv")
         for chart in sorted((folder / scene).glob("*.svg")):
             page.save(f"docs/results/chart/{scene}-{chart.name}", chart)
     page.save("docs/results/chart/ratios.csv", folder / "ratios.csv")
